@@ -1,0 +1,1 @@
+"""Readers of mesh files, behind the `load_mesh` hook."""

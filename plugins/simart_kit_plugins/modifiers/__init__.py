@@ -1,0 +1,1 @@
+"""Built-in modifiers: small steps from Asset to Asset, one file each."""

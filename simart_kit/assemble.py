@@ -1,0 +1,91 @@
+"""From labels and joints to an Asset: names cleaned, labels checked, loose parts fixed to the body."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from .arrays import FloatArray, frozen_ints
+from .asset import Asset, Joint, Part, clean_name, unique_names
+from .mesh import Mesh, Note
+from .physics import DEFAULT_MATERIAL, MATERIALS
+from .stages import PartGuess, Segmentation
+
+
+def checked(segmentation: Segmentation, mesh: Mesh) -> Segmentation:
+    """The segmentation with clean, unique names; joint hints follow the new names.
+
+    Raises:
+        ValueError: labels of a wrong dtype, shape or range, or guesses that do not match them.
+    """
+    if not isinstance(segmentation, Segmentation):
+        raise ValueError(f"returned {type(segmentation).__name__}, expected a simart_kit.Segmentation")
+    labels = np.asarray(segmentation.face_part)
+    if not np.issubdtype(labels.dtype, np.integer):
+        raise ValueError(f"face_part has dtype {labels.dtype}, expected int32")
+    if labels.shape != (len(mesh.faces),):
+        raise ValueError(
+            f"face_part has shape {labels.shape}, expected ({len(mesh.faces)},): one label a face"
+        )
+    count = len(segmentation.parts)
+    used = np.unique(labels)
+    if not np.array_equal(used, np.arange(count)):
+        shown = ", ".join(map(str, used[:10].tolist()))
+        raise ValueError(f"face_part uses ids {shown} for {count} parts, expected each of 0..{count - 1}")
+    old = [p.name for p in segmentation.parts]
+    new = unique_names([clean_name(name) for name in old])
+    hints = segmentation.joints
+    if hints is not None:
+        renamed = dict(zip(old, new, strict=True))
+        hints = tuple(
+            replace(j, parent=renamed.get(j.parent, j.parent), child=renamed.get(j.child, j.child))
+            for j in hints
+        )
+    return replace(
+        segmentation,
+        face_part=frozen_ints(labels),
+        parts=tuple(replace(p, name=n) for p, n in zip(segmentation.parts, new, strict=True)),
+        joints=hints,
+    )
+
+
+def assemble(
+    name: str,
+    mesh: Mesh,
+    segmentation: Segmentation,
+    joints: Sequence[Joint],
+    asset_from_source: FloatArray,
+    floating: bool = False,
+) -> Asset:
+    """Put an Asset together; parts that no joint moves are fixed to the body.
+
+    The body is the largest part (by area) that no joint moves.
+
+    Raises:
+        BadInputError: joints that name unknown parts or are not a tree.
+    """
+    children = {j.child for j in joints}
+    still = [i for i, p in enumerate(segmentation.parts) if p.name not in children]
+    areas = np.bincount(segmentation.face_part, mesh.face_areas, minlength=len(segmentation.parts))
+    body = segmentation.parts[max(still, key=lambda i: areas[i])] if still else segmentation.parts[0]
+    loose = [segmentation.parts[i] for i in still if segmentation.parts[i] is not body]
+    fixed = [Joint(f"{p.name}_mount", "fixed", body.name, p.name) for p in loose]
+    unknown = sorted({p.material for p in segmentation.parts} - set(MATERIALS))
+    texts = [f"material '{m}' is not in the table: {DEFAULT_MATERIAL} is used" for m in unknown]
+    return Asset(
+        name=name,
+        mesh=replace(mesh, notes=()),
+        face_part=segmentation.face_part,
+        parts=tuple(_part(guess) for guess in segmentation.parts),
+        joints=(*joints, *fixed),
+        asset_from_source=asset_from_source,
+        floating=floating,
+        notes=mesh.notes + segmentation.notes + tuple(Note("assemble", "warning", t) for t in texts),
+    )
+
+
+def _part(guess: PartGuess) -> Part:
+    material = MATERIALS.get(guess.material, MATERIALS[DEFAULT_MATERIAL])
+    return Part(guess.name, label=guess.label, description=guess.description, material=material)

@@ -1,0 +1,82 @@
+"""The hooks a plugin may implement. `docs/plugins.md` documents each one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+import pluggy
+
+if TYPE_CHECKING:
+    from .mesh import Mesh
+    from .pipeline import Run
+    from .report import Report
+    from .stages import Exporter, JointPredictor, Modifier, Segmenter
+
+hookspec = pluggy.HookspecMarker("simart_kit")
+hookimpl = pluggy.HookimplMarker("simart_kit")
+
+
+class Register(Protocol):
+    """What a `register_*` hook is called with: pass it a stage class."""
+
+    def __call__(self, stage: type[Segmenter | JointPredictor | Modifier | Exporter], /) -> None: ...
+
+
+class RegisterRecipe(Protocol):
+    """What `register_recipes` is called with: a recipe's name and its TOML file."""
+
+    def __call__(self, name: str, path: Path, /) -> None: ...
+
+
+@hookspec
+def register_segmenters(register: Register) -> None:
+    """Register Segmenter classes: `register(MySegmenter)`."""
+
+
+@hookspec
+def register_joint_predictors(register: Register) -> None:
+    """Register JointPredictor classes."""
+
+
+@hookspec
+def register_modifiers(register: Register) -> None:
+    """Register Modifier classes."""
+
+
+@hookspec
+def register_exporters(register: Register) -> None:
+    """Register Exporter classes."""
+
+
+@hookspec
+def register_recipes(register: RegisterRecipe) -> None:
+    """Register recipe files that the plugin ships: `register("mine", path)`."""
+
+
+@hookspec(firstresult=True)
+def load_mesh(path: Path) -> Mesh | None:
+    """Read a file into a Mesh in the file's own frame; None when the format is not yours.
+
+    Raise BadInputError when the format is yours and the file is broken.
+    """
+
+
+@hookspec
+def run_started(run: Run) -> None:
+    """A run begins; nothing has been read yet."""
+
+
+@hookspec
+def stage_finished(run: Run, stage: str, name: str, value: object, seconds: float) -> None:
+    """A stage returned `value`; `stage` is load, segment, joints, assemble, modify, check, preview or export."""
+
+
+@hookspec
+def run_failed(run: Run, stage: str, error: BaseException) -> None:
+    """A stage raised; the files in `run.folder` are kept for the user."""
+
+
+@hookspec
+def run_finished(run: Run, report: Report) -> None:
+    """All stages are done; files written to `run.folder` become part of the output."""

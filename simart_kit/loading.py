@@ -1,0 +1,93 @@
+"""Reading a source file: who can, in which frame, and whether it can be used at all."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from .arrays import FloatArray
+from .errors import BadInputError
+from .mesh import Mesh, Note, UpAxis, canonical
+from .plugins import Plugins
+from .provenance import file_hash
+
+UNITS = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254, "ft": 0.3048}
+# Sizes beyond these are damage or a joke; single precision loses the shape.
+_SMALLEST, _LARGEST = 1e-6, 1e6
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A file that was read.
+
+    Attributes:
+        mesh: in the canonical frame, in the metres that the file claims.
+        asset_from_source: (4, 4) maps the file's coordinates to the mesh's.
+        sha256: of the file.
+    """
+
+    mesh: Mesh
+    asset_from_source: FloatArray
+    sha256: str
+
+
+def source_path(source: str | Path) -> Path:
+    """The file as a path; raises BadInputError when there is none."""
+    path = Path(source)
+    if path.is_dir():
+        raise BadInputError(f"{path} is a folder: name one mesh file in it")
+    if not path.exists():
+        raise BadInputError(f"no such file: {path}")
+    return path
+
+
+def read_source(
+    path: Path, plugins: Plugins, up: UpAxis | None = None, unit: str | float | None = None
+) -> Source:
+    """Read a mesh file and bring it to the canonical frame.
+
+    Raises:
+        BadInputError: nobody reads this format, the file is broken, or its size makes no sense.
+    """
+    metres_per_unit = metres(unit)
+    if path.stat().st_size == 0:
+        raise BadInputError(f"{path} is empty (0 bytes)")
+    mesh = plugins.manager.hook.load_mesh(path=path)
+    if mesh is None:
+        raise BadInputError(
+            f"{path}: no plugin reads '{path.suffix or path.name}' files; "
+            "known are glb, gltf, obj, ply, stl, off, dae, 3mf, usd, usda, usdc, usdz"
+        )
+    assert isinstance(mesh, Mesh)
+    placed, asset_from_source = canonical(mesh, up, metres_per_unit)
+    if not _SMALLEST < placed.diagonal < _LARGEST or not float(placed.face_areas.sum()) > 0:
+        raise BadInputError(
+            f"{path}: the object is {placed.diagonal:.3g} m across with a surface of "
+            f"{float(placed.face_areas.sum()):.3g} m2: check the file, or give its --unit"
+        )
+    decided = Note("load", "info", _frame_text(mesh, up, unit))
+    return Source(replace(placed, notes=(*mesh.notes, decided)), asset_from_source, file_hash(path))
+
+
+def metres(unit: str | float | None) -> float | None:
+    """Metres a unit from a name or a number; None stays None."""
+    if unit is None:
+        return None
+    try:
+        value = UNITS[unit] if unit in UNITS else float(unit)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and value > 0):
+        raise BadInputError(f"unit '{unit}': use {', '.join(UNITS)} or metres a unit as a number > 0")
+    return value
+
+
+def _frame_text(mesh: Mesh, up: UpAxis | None, unit: str | float | None) -> str:
+    said = (
+        "the file gives no unit, metres assumed"
+        if mesh.metres_per_unit is None
+        else (f"the file says {mesh.metres_per_unit:g} m a unit")
+    )
+    length = f"--unit {unit}" if unit is not None else said
+    return f"up is {up or mesh.up} ({'--up' if up else 'from the format'}); {length}"

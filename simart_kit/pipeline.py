@@ -1,0 +1,215 @@
+"""convert(): from a source mesh to an articulated asset in every format of the recipe."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from .asset import Asset, clean_name
+from .assemble import assemble, checked
+from .asset_io import save_asset
+from .checks import run_checks
+from .errors import SimartKitError, StageError
+from .exports import export_all
+from .loading import Source, read_source, source_path
+from .mesh import Note, UpAxis
+from .output import PROVENANCE, commit, forget_failure, hashes, keep_failure, staging
+from .plugins import Plugins
+from .provenance import provenance, write_json
+from .recipe import Recipe, build, load_recipe
+from .report import Report
+from .runner import Run, Runner
+from .stages import JointPredictor, Modifier, Segmentation, Segmenter
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a conversion leaves.
+
+    Attributes:
+        asset: the articulated asset.
+        report: checks, decisions and warnings.
+        paths: main files: "asset", "report", "provenance", "preview", "recording", and one an exporter.
+        folder: the output folder.
+    """
+
+    asset: Asset
+    report: Report
+    paths: dict[str, Path]
+    folder: Path
+
+
+def convert(
+    source: str | Path,
+    recipe: str | Path = "default",
+    *,
+    out: str | Path | None = None,
+    name: str | None = None,
+    sets: Iterable[str] = (),
+    up: UpAxis | None = None,
+    unit: str | float | None = None,
+    height: float | None = None,
+    scale: float | None = None,
+    floating: bool = False,
+    record: bool = True,
+    plugins: Plugins | None = None,
+) -> Result:
+    """Turn a mesh file into an articulated asset.
+
+    Args:
+        source: mesh file; formats are those of the loaded plugins.
+        recipe: a recipe's name, a TOML file, or the provenance.json of an earlier run.
+        out: output folder; the default is `out/NAME`.
+        name: of the asset; the default comes from the file's name.
+        sets: recipe changes such as "segmenter.options.max_parts=8".
+        up: the file's up axis, where the file does not say or says wrong.
+        unit: the file's unit: "mm", "cm", "m", "in", "ft", or metres a unit.
+        height: real height of the object [m].
+        scale: factor on the size.
+        floating: leave the base free instead of fixing it to the world.
+        record: write a rerun recording.
+        plugins: the default loads all installed ones.
+
+    Raises:
+        BadInputError: the source cannot be used; nothing is written.
+        RecipeError, PluginError: the recipe cannot be run; nothing is written.
+        StageError: a stage failed; `out/failed` keeps its input and the recording, the rest is as it was.
+    """
+    plugins = plugins or Plugins()
+    path = source_path(source)
+    name = clean_name(name or path.stem, "asset")
+    resolved = load_recipe(recipe, plugins, [*sets, *_scale_sets(height, scale)])
+    folder = Path(out) if out is not None else Path("out") / name
+
+    with staging(folder) as work:
+        runner = Runner(Run(name, path, resolved, work, record), plugins)
+        with _failures_kept(runner, folder):
+            runner.tell("run_started")
+            loaded = _load(runner, plugins, path, up, unit)
+            segmentation = _segment(runner, plugins, resolved, loaded)
+            asset = _articulate(runner, plugins, resolved, loaded, segmentation, name, floating)
+            asset = _modify(runner, plugins, resolved, asset)
+            report, mains = _write(runner, plugins, resolved, asset)
+        arguments = {"name": name, "up": up, "unit": unit, "floating": floating}
+        return _finish(runner, plugins, loaded, report, mains, folder, arguments)
+
+
+def _load(
+    runner: Runner, plugins: Plugins, path: Path, up: UpAxis | None, unit: str | float | None
+) -> Source:
+    return runner.call("load", path.suffix.lstrip(".").lower(), read_source, path, plugins, up, unit)
+
+
+def _segment(runner: Runner, plugins: Plugins, recipe: Recipe, loaded: Source) -> Segmentation:
+    stage, registration = build(recipe.segmenter, "segmenter", plugins, recipe.seed)
+    assert isinstance(stage, Segmenter)
+    return runner.stage("segment", registration, lambda mesh: checked(stage.segment(mesh), mesh), loaded.mesh)
+
+
+def _articulate(
+    runner: Runner,
+    plugins: Plugins,
+    recipe: Recipe,
+    loaded: Source,
+    segmentation: Segmentation,
+    name: str,
+    floating: bool,
+) -> Asset:
+    stage, registration = build(recipe.joints, "joint predictor", plugins, recipe.seed)
+    assert isinstance(stage, JointPredictor)
+
+    def predicted(segmentation: Segmentation) -> Asset:
+        joints = stage.predict(loaded.mesh, segmentation)
+        return assemble(name, loaded.mesh, segmentation, joints, loaded.asset_from_source, floating)
+
+    return runner.stage("joints", registration, predicted, segmentation)
+
+
+def _modify(runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset) -> Asset:
+    for use in recipe.modify:
+        stage, registration = build(use, "modifier", plugins, recipe.seed)
+        assert isinstance(stage, Modifier)
+        asset = runner.stage("modify", registration, stage.modify, asset)
+    return asset
+
+
+def _write(runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset) -> tuple[Report, dict[str, Path]]:
+    from .render import write_preview
+
+    work = runner.run.folder
+    checks = runner.call("check", "checks", run_checks, asset)
+    save_asset(asset, work)
+    runner.call("preview", "preview", write_preview, asset, work / "preview.png")
+    mains, unsupported = export_all(runner, plugins, recipe, asset)
+    report = Report(runner.run.name, asset, checks, asset.notes + runner.notes, unsupported, runner.seconds)
+    runner.tell("run_finished", report=report)
+    write_json(work / "report.json", report.table())
+    return report, mains
+
+
+def _finish(
+    runner: Runner,
+    plugins: Plugins,
+    loaded: Source,
+    report: Report,
+    mains: dict[str, Path],
+    folder: Path,
+    arguments: dict[str, Any],
+) -> Result:
+    run = runner.run
+    record = provenance(
+        source=run.source,
+        source_hash=loaded.sha256,
+        recipe=run.recipe,
+        used=runner.used,
+        failures=plugins.failures,
+        outputs=hashes(run.folder),
+        seconds=runner.seconds,
+        arguments=arguments,
+    )
+    write_json(run.folder / PROVENANCE, record)
+    kept = commit(run.folder, folder)
+    forget_failure(folder)
+    notes = report.notes + tuple(Note("output", "warning", text) for text in kept)
+    paths = {key: folder / main.relative_to(run.folder) for key, main in _outputs(run, mains).items()}
+    return Result(report.asset, replace(report, notes=notes), paths, folder)
+
+
+def _outputs(run: Run, mains: dict[str, Path]) -> dict[str, Path]:
+    files = {
+        "asset": "asset.json",
+        "report": "report.json",
+        "provenance": PROVENANCE,
+        "preview": "preview.png",
+        "recording": f"{run.name}.rrd",
+    }
+    beside = {key: run.folder / name for key, name in files.items()}
+    return mains | {key: path for key, path in beside.items() if path.exists()}
+
+
+@contextmanager
+def _failures_kept(runner: Runner, folder: Path) -> Iterator[None]:
+    """Keep the recording, the failed stage's input and the traceback of a run that a stage ends."""
+    try:
+        yield
+    except StageError:
+        kept = runner.run.folder / "failed"
+        kept.mkdir(exist_ok=True)
+        (kept / "error.txt").write_text(traceback.format_exc(), encoding="utf-8")
+        recording = runner.run.folder / f"{runner.run.name}.rrd"
+        if recording.exists():
+            recording.replace(kept / recording.name)
+        keep_failure(kept, folder)
+        raise
+    except SimartKitError as error:
+        runner.tell("run_failed", stage="load", error=error)
+        raise
+
+
+def _scale_sets(height: float | None, scale: float | None) -> list[str]:
+    values = {"height": height, "factor": scale}
+    return [f"modify.scale.options.{key}={value}" for key, value in values.items() if value is not None]

@@ -1,0 +1,259 @@
+"""Finding, loading and naming plugins. One broken plugin never takes the tool down."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import os
+import traceback
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from importlib.metadata import EntryPoint, entry_points, version
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pluggy
+
+from . import hookspecs
+from .errors import AmbiguousPluginError, PluginError, UnknownPluginError
+from .stages import Exporter, JointPredictor, Modifier, Segmenter, Stage
+
+DEFAULT_PLUGINS = (
+    "simart_kit_plugins.loaders.trimesh_loader",
+    "simart_kit_plugins.loaders.usd_loader",
+    "simart_kit_plugins.geometric",
+    "simart_kit_plugins.hints",
+    "simart_kit_plugins.modifiers.scale",
+    "simart_kit_plugins.modifiers.snap",
+    "simart_kit_plugins.modifiers.sweep",
+    "simart_kit_plugins.modifiers.mass",
+    "simart_kit_plugins.modifiers.collision",
+    "simart_kit_exporters.urdf",
+    "simart_kit_exporters.mjcf",
+    "simart_kit_exporters.usd",
+    "simart_kit_plugins.recorder:Recorder",
+)
+STAGE_HOOKS: dict[str, type[Stage]] = {
+    "register_segmenters": Segmenter,
+    "register_joint_predictors": JointPredictor,
+    "register_modifiers": Modifier,
+    "register_exporters": Exporter,
+}
+
+
+@dataclass(frozen=True)
+class Owner:
+    """Where something registered came from.
+
+    Attributes:
+        plugin: its module, entry point or file name.
+        distribution: installed distribution, "built in", or the file's path.
+        version: version of the distribution, "" for a file.
+    """
+
+    plugin: str
+    distribution: str
+    version: str
+
+    def __str__(self) -> str:
+        return f"{self.plugin} ({self.distribution} {self.version})".replace(" )", ")")
+
+
+@dataclass(frozen=True)
+class Registration:
+    """A stage class or a recipe file under its name.
+
+    Attributes:
+        kind: "segmenter", "joint predictor", "modifier", "exporter" or "recipe".
+        name: what recipes call it.
+        value: the class, or the recipe's path.
+        owner: where it came from.
+    """
+
+    kind: str
+    name: str
+    value: Any
+    owner: Owner
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A plugin that could not be loaded.
+
+    Attributes:
+        owner: where it came from.
+        phase: "import" or "registration".
+        error: one line.
+        trace: the traceback, for `-v`.
+    """
+
+    owner: Owner
+    phase: str
+    error: str
+    trace: str
+
+    def __str__(self) -> str:
+        return f"{self.owner.plugin} during {self.phase}: {self.error}"
+
+
+class Plugins:
+    """The plugins of one run or one test; nothing is shared between instances.
+
+    Args:
+        load: names of third-party plugins to load; None loads all installed ones. The default comes from
+            SIMART_LOAD_PLUGINS, a list with commas; an empty one loads none.
+        strict: raise the first failure instead of recording it; the default is whether
+            SIMART_STRICT_PLUGINS is "1".
+        files: Python files to load as plugins besides.
+        installed: whether to look for installed third-party plugins at all.
+
+    Attributes:
+        manager: the pluggy manager, for tests that register objects directly.
+        failures: plugins that did not load.
+    """
+
+    def __init__(
+        self,
+        *,
+        load: Iterable[str] | None = None,
+        strict: bool | None = None,
+        files: Iterable[Path] = (),
+        installed: bool = True,
+    ) -> None:
+        chosen = os.environ.get("SIMART_LOAD_PLUGINS")
+        if load is None and chosen is not None:
+            load = [name.strip() for name in chosen.split(",") if name.strip()]
+        self._wanted = None if load is None else set(load)
+        self._strict = os.environ.get("SIMART_STRICT_PLUGINS") == "1" if strict is None else strict
+        self.manager = pluggy.PluginManager("simart_kit")
+        self.manager.add_hookspecs(hookspecs)
+        self.failures: tuple[Failure, ...] = ()
+        self._registrations: list[Registration] = []
+        self._owners: dict[int, Owner] = {}
+        for name in DEFAULT_PLUGINS:
+            self._load(Owner(name, "built in", version("simart-kit")), name)
+        for point in _entry_points() if installed else ():
+            if self._wanted is None or point.name in self._wanted:
+                dist = point.dist
+                self._load(Owner(point.name, dist.name if dist else "?", dist.version if dist else ""), point)
+        for file in files:
+            self._load(Owner(file.stem, str(file), ""), file)
+
+    def register(self, plugin: object, owner: Owner | None = None) -> None:
+        """Add a plugin object; raises what its registration raises. Tests use this with fakes."""
+        owner = owner or Owner(getattr(plugin, "__name__", type(plugin).__name__), "registered object", "")
+        self.manager.register(plugin, name=f"{owner.plugin}-{id(plugin)}")
+        try:
+            self.manager.check_pending()
+            pending = self._collect(plugin, owner)
+        except Exception:
+            self.manager.unregister(plugin)
+            raise
+        self._owners[id(plugin)] = owner
+        self._registrations += pending
+
+    def registrations(self, kind: str | None = None) -> tuple[Registration, ...]:
+        """Everything registered, or all of one kind, in loading order."""
+        return tuple(r for r in self._registrations if kind in (None, r.kind))
+
+    def notify(self, hook: str, arguments: Mapping[str, object]) -> list[tuple[Owner, Exception]]:
+        """Call an observer hook of every plugin in loading order; returns who failed, and how."""
+        failed = []
+        for implementation in getattr(self.manager.hook, hook).get_hookimpls():
+            try:
+                implementation.function(**{name: arguments[name] for name in implementation.argnames})
+            except Exception as error:
+                failed.append((self._owners[id(implementation.plugin)], error))
+        return failed
+
+    def find(self, kind: str, name: str) -> Registration:
+        """The one registration of this kind and name.
+
+        Raises:
+            UnknownPluginError: there is none; lists those that exist and the plugins that failed to load.
+            AmbiguousPluginError: there are several; names their owners.
+        """
+        found = [r for r in self.registrations(kind) if r.name == name]
+        if not found:
+            known = {r.name for r in self.registrations(kind)}
+            raise UnknownPluginError(kind, name, known, [str(f) for f in self.failures])
+        if len(found) > 1:
+            raise AmbiguousPluginError(kind, name, [str(r.owner) for r in found])
+        return found[0]
+
+    def conflicts(self) -> tuple[tuple[Registration, ...], ...]:
+        """Groups of registrations that share kind and name."""
+        groups: dict[tuple[str, str], list[Registration]] = {}
+        for registration in self._registrations:
+            groups.setdefault((registration.kind, registration.name), []).append(registration)
+        return tuple(tuple(group) for group in groups.values() if len(group) > 1)
+
+    def _load(self, owner: Owner, source: str | EntryPoint | Path) -> None:
+        phase = "import"
+        try:
+            plugin = _import(source)
+            phase = "registration"
+            self.register(plugin() if isinstance(plugin, type) else plugin, owner)
+        except (Exception, SystemExit) as error:
+            text = " ".join(str(error).split()) or type(error).__name__
+            failure = Failure(owner, phase, f"{type(error).__name__}: {text}", traceback.format_exc())
+            if self._strict:
+                raise PluginError(f"plugin {failure}") from error
+            self.failures += (failure,)
+
+    def _collect(self, plugin: object, owner: Owner) -> list[Registration]:
+        """Call the plugin's own register hooks; nothing is kept if one raises."""
+        pending: list[Registration] = []
+        for hook, base in STAGE_HOOKS.items():
+            implementation = self._implementation(plugin, hook)
+            if implementation:
+                implementation(register=lambda stage, base=base: pending.append(_checked(stage, base, owner)))
+        recipes = self._implementation(plugin, "register_recipes")
+        if recipes:
+            recipes(
+                register=lambda name, path: pending.append(Registration("recipe", name, Path(path), owner))
+            )
+        return pending
+
+    def _implementation(self, plugin: object, hook: str) -> Any:
+        for implementation in getattr(self.manager.hook, hook).get_hookimpls():
+            if implementation.plugin is plugin:
+                return implementation.function
+        return None
+
+
+def _checked(stage: Any, base: type[Stage], owner: Owner) -> Registration:
+    if not (isinstance(stage, type) and issubclass(stage, base)):
+        raise TypeError(f"{stage!r} is not a subclass of simart_kit.{base.__name__}")
+    name = getattr(stage, "name", None)
+    if not isinstance(name, str) or not name:
+        raise TypeError(f"{stage.__name__} needs a class attribute `name`, such as name = 'mine'")
+    return Registration(base.kind, name, stage, owner)
+
+
+def _entry_points() -> list[EntryPoint]:
+    """Installed plugins in an order that does not depend on the file system."""
+    found = entry_points(group="simart_kit")
+    return sorted(found, key=lambda p: (p.dist.name if p.dist else "", p.name))
+
+
+def _import(source: str | EntryPoint | Path) -> Any:
+    if isinstance(source, EntryPoint):
+        return source.load()
+    if isinstance(source, Path):
+        return _import_file(source)
+    module, _, attribute = source.partition(":")
+    loaded = importlib.import_module(module)
+    return getattr(loaded, attribute) if attribute else loaded
+
+
+def _import_file(path: Path) -> ModuleType:
+    if not path.is_file():
+        raise FileNotFoundError(f"no plugin file {path}")
+    spec = importlib.util.spec_from_file_location(f"simart_kit_file_{path.stem}", path)
+    if spec is None or spec.loader is None:
+        raise ImportError(f"{path} is not a Python file")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module

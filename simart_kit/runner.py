@@ -1,0 +1,103 @@
+"""Runs stages: times them, names the one that fails, and tells the observers."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
+
+from .asset_io import save_value
+from .errors import StageError
+from .mesh import Note
+from .plugins import Plugins, Registration
+from .timeout import time_limit
+
+if TYPE_CHECKING:
+    from .recipe import Recipe
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """What observers are told about a run.
+
+    Attributes:
+        name: the asset's.
+        source: the file that is converted.
+        recipe: resolved.
+        folder: where files of this run are being written; moved to the output folder at the end.
+        record: whether the user wants a recording.
+    """
+
+    name: str
+    source: Path
+    recipe: Recipe
+    folder: Path
+    record: bool = True
+
+
+class Runner:
+    """Calls one stage after the other.
+
+    Attributes:
+        run: what it works on.
+        seconds: (stage, name, wall time) of each finished stage.
+        used: registrations of the stages that ran.
+        notes: observers that failed; they never stop a run.
+    """
+
+    def __init__(self, run: Run, plugins: Plugins) -> None:
+        self.run = run
+        self.seconds: tuple[tuple[str, str, float], ...] = ()
+        self.used: tuple[Registration, ...] = ()
+        self.notes: tuple[Note, ...] = ()
+        self._plugins = plugins
+
+    def call(self, stage: str, name: str, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
+        """Run a step of the core's own; its errors pass through."""
+        start = time.perf_counter()
+        value = function(*args, **kwargs)
+        self._finished(stage, name, value, time.perf_counter() - start)
+        return value
+
+    def stage(
+        self,
+        stage: str,
+        registration: Registration,
+        function: Callable[P, T],
+        *args: P.args,
+        **kwargs: P.kwargs,
+    ) -> T:
+        """Run a plugin's step; whatever it raises becomes a StageError that names it.
+
+        The first argument is saved when the step fails, as `failed/input`.
+        """
+        start = time.perf_counter()
+        try:
+            with time_limit(self.run.recipe.stage_timeout):
+                value = function(*args, **kwargs)
+        except (Exception, SystemExit) as cause:
+            owner = registration.owner
+            error = StageError(
+                registration.kind, registration.name, owner.plugin, owner.distribution, owner.version, cause
+            )
+            save_value(args[0], self.run.folder / "failed" / "input")
+            self.tell("run_failed", stage=stage, error=error)
+            raise error from cause
+        self.used += (registration,)
+        self._finished(stage, registration.name, value, time.perf_counter() - start)
+        return value
+
+    def tell(self, hook: str, **arguments: object) -> None:
+        """Call an observer hook; an observer that fails is noted and the others still hear."""
+        for owner, error in self._plugins.notify(hook, {"run": self.run, **arguments}):
+            text = f"{owner} failed in {hook}: {type(error).__name__}: {error}"
+            self.notes += (Note("observer", "warning", text),)
+
+    def _finished(self, stage: str, name: str, value: object, seconds: float) -> None:
+        self.seconds += ((stage, name, seconds),)
+        self.tell("stage_finished", stage=stage, name=name, value=value, seconds=seconds)

@@ -1,0 +1,134 @@
+"""What a plugin subclasses: Segmenter, JointPredictor, Modifier, Exporter, and their Options."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar
+
+from pydantic import BaseModel, ConfigDict
+
+if TYPE_CHECKING:
+    from .arrays import IntArray
+    from .asset import Asset, Joint
+    from .mesh import Mesh, Note
+
+
+class Options(BaseModel):
+    """Base of a stage's options: frozen, strict, unknown keys are errors. Describe every field with its unit."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+class Stage(ABC):
+    """Base of all stages. Nest `class Options(simart_kit.Options)` and annotate `options: Options`.
+
+    Attributes:
+        name: what recipes call it, unique within its kind.
+        kind: set by the four stage classes below.
+        options: validated.
+        seed: the recipe's; make generators with `numpy.random.default_rng(self.seed)`.
+    """
+
+    name: ClassVar[str]
+    kind: ClassVar[str]
+
+    class Options(Options):
+        """A stage without options."""
+
+    options: Options
+
+    def __init__(self, options: Options | None = None, *, seed: int = 0) -> None:
+        self.options = self.Options() if options is None else options
+        self.seed = seed
+
+
+@dataclass(frozen=True)
+class PartGuess:
+    """What a segmenter believes about a part.
+
+    Attributes:
+        name: such as "left_door"; cleaned and made unique by the core.
+        label: what kind of thing it is, such as "door".
+        material: key of the material table (`simart_kit.physics.MATERIALS`).
+        score: 0..1.
+        description: for people.
+    """
+
+    name: str
+    label: str = ""
+    material: str = "wood"
+    score: float = 1.0
+    description: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Segmentation:
+    """A part for every face.
+
+    Attributes:
+        face_part: (F,) int32 part ids 0..P-1, every id used, in the order of the mesh's faces.
+        parts: one guess a part; part 0 is the body when no joint says otherwise.
+        joints: joint hints of a model that predicts parts and joints at once, naming `parts` by their names;
+            None when the segmenter has no opinion.
+        face_segment: (F,) int32 finer pieces that were grouped, for the recording, or None.
+        notes: what was decided, for the report.
+    """
+
+    face_part: IntArray
+    parts: tuple[PartGuess, ...]
+    joints: tuple[Joint, ...] | None = None
+    face_segment: IntArray | None = None
+    notes: tuple[Note, ...] = ()
+
+
+class Segmenter(Stage):
+    """Finds the parts of a mesh."""
+
+    kind = "segmenter"
+
+    @abstractmethod
+    def segment(self, mesh: Mesh) -> Segmentation:
+        """Label every face of a mesh in the canonical frame (see DESIGN: +Z up, front -Y, nominal metres)."""
+
+
+class JointPredictor(Stage):
+    """Says how the parts move."""
+
+    kind = "joint predictor"
+
+    @abstractmethod
+    def predict(self, mesh: Mesh, segmentation: Segmentation) -> tuple[Joint, ...]:
+        """Joints between parts, by the names in `segmentation.parts`; parts left out are fixed to the body.
+
+        The names in `segmentation.parts` are already clean and unique. No joint at all is a valid answer:
+        the object is static.
+        """
+
+
+class Modifier(Stage):
+    """A small step from Asset to Asset."""
+
+    kind = "modifier"
+
+    @abstractmethod
+    def modify(self, asset: Asset) -> Asset:
+        """A changed copy; say what was decided with `asset.with_notes`."""
+
+
+class Exporter(Stage):
+    """Writes an Asset in one format."""
+
+    kind = "exporter"
+
+    @abstractmethod
+    def export(self, asset: Asset, directory: Path) -> Path:
+        """Write into a fresh, empty directory and return the main file.
+
+        Relative paths only, no timestamp, the same bytes every time. The core moves the result into place.
+        """
+
+    def unsupported(self, asset: Asset) -> tuple[str, ...]:
+        """What this format cannot express of the asset and what is written instead, a sentence each."""
+        return ()

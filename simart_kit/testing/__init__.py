@@ -1,0 +1,1 @@
+"""For plugin authors: contract classes, fake plugins and generated meshes."""
