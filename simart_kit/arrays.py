@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int32]
+IntArray = NDArray[np.integer[Any]]
 ByteArray = NDArray[np.uint8]
 BoolArray = NDArray[np.bool_]
 T = TypeVar("T", bound=np.generic)

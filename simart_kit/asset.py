@@ -313,10 +313,12 @@ class Asset:
 
 
 def clean_name(text: str, fallback: str = "part") -> str:
-    """Turn any text into `[a-z][a-z0-9_]*`."""
+    """Turn any text into `[a-z][a-z0-9_]*`; "world" is MuJoCo's and gets the fallback before it."""
     name = re.sub(r"[^a-z0-9]+", "_", text.lower()).strip("_")
     if not name:
         return fallback
+    if name == "world":
+        return f"{fallback}_world"
     return name if name[0].isalpha() else f"{fallback}_{name}"
 
 

@@ -36,15 +36,18 @@ class PluginError(SimartKitError):
 
 
 class UnknownPluginError(PluginError):
-    """No plugin of that kind has this name; the message lists those that have one."""
+    """No plugin of that kind has this name; the message lists those that have one.
+
+    Attributes:
+        missing: what is unknown and what is known.
+        failed: plugins that failed to load, one of which may be the one; "" when all loaded.
+    """
 
     def __init__(self, kind: str, name: str, known: Iterable[str], failures: Iterable[str] = ()) -> None:
-        listed = ", ".join(sorted(known)) or "none"
-        text = f"unknown {kind} '{name}': known are {listed}"
+        self.missing = f"unknown {kind} '{name}': known are {', '.join(sorted(known)) or 'none'}"
         failed = list(failures)
-        if failed:
-            text += f"; {len(failed)} plugin(s) failed to load: " + "; ".join(failed)
-        super().__init__(text)
+        self.failed = f"{len(failed)} plugin(s) failed to load: " + "; ".join(failed) if failed else ""
+        super().__init__("; ".join(filter(None, (self.missing, self.failed))))
 
 
 class AmbiguousPluginError(PluginError):
@@ -71,8 +74,11 @@ class StageError(SimartKitError):
     def __init__(
         self, kind: str, name: str, plugin: str, distribution: str, version: str, cause: BaseException
     ) -> None:
+        # Set here and not only by `raise ... from`: observers are told of the failure before it is raised.
+        self.__cause__ = cause
         self.kind, self.name, self.plugin = kind, name, plugin
         self.distribution, self.version = distribution, version
         reason = str(cause).strip().splitlines()
         text = f"{type(cause).__name__}: {reason[0]}" if reason else type(cause).__name__
-        super().__init__(f"{kind} '{name}' failed (plugin {plugin}, {distribution} {version}): {text}")
+        origin = f"{distribution} {version}".rstrip()
+        super().__init__(f"{kind} '{name}' failed (plugin {plugin}, {origin}): {text}")

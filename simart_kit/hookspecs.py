@@ -69,7 +69,7 @@ def run_started(run: Run) -> None:
 
 @hookspec
 def stage_finished(run: Run, stage: str, name: str, value: object, seconds: float) -> None:
-    """A stage returned `value`; `stage` is load, segment, joints, assemble, modify, check, preview or export."""
+    """A stage returned `value`; `stage` is load, segment, joints, modify, check, preview or export."""
 
 
 @hookspec

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from .arrays import FloatArray
-from .errors import BadInputError
+from .errors import BadInputError, PluginError, SimartKitError
 from .mesh import Mesh, Note, UpAxis, canonical
+from .normals import with_normals
 from .plugins import Plugins
 from .provenance import file_hash
 
@@ -53,13 +54,7 @@ def read_source(
     metres_per_unit = metres(unit)
     if path.stat().st_size == 0:
         raise BadInputError(f"{path} is empty (0 bytes)")
-    mesh = plugins.manager.hook.load_mesh(path=path)
-    if mesh is None:
-        raise BadInputError(
-            f"{path}: no plugin reads '{path.suffix or path.name}' files; "
-            "known are glb, gltf, obj, ply, stl, off, dae, 3mf, usd, usda, usdc, usdz"
-        )
-    assert isinstance(mesh, Mesh)
+    mesh = _loaded(path, plugins)
     placed, asset_from_source = canonical(mesh, up, metres_per_unit)
     if not _SMALLEST < placed.diagonal < _LARGEST or not float(placed.face_areas.sum()) > 0:
         raise BadInputError(
@@ -67,7 +62,25 @@ def read_source(
             f"{float(placed.face_areas.sum()):.3g} m2: check the file, or give its --unit"
         )
     decided = Note("load", "info", _frame_text(mesh, up, unit))
+    placed = with_normals(placed)  # once, for every stage that draws or exports
     return Source(replace(placed, notes=(*mesh.notes, decided)), asset_from_source, file_hash(path))
+
+
+def _loaded(path: Path, plugins: Plugins) -> Mesh:
+    try:
+        mesh = plugins.manager.hook.load_mesh(path=path)
+    except SimartKitError:
+        raise
+    except Exception as error:
+        raise PluginError(f"{path}: a loader plugin failed: {type(error).__name__}: {error}") from error
+    if mesh is None:
+        raise BadInputError(
+            f"{path}: no plugin reads '{path.suffix or path.name}' files; "
+            "known are glb, gltf, obj, ply, stl, off, dae, 3mf, usd, usda, usdc, usdz"
+        )
+    if not isinstance(mesh, Mesh):
+        raise PluginError(f"{path}: a loader plugin returned {type(mesh).__name__}, not a Mesh")
+    return mesh
 
 
 def metres(unit: str | float | None) -> float | None:

@@ -38,7 +38,8 @@ def with_normals(mesh: Mesh, crease: float = CREASE_ANGLE) -> Mesh:
 
 def weld(vertices: FloatArray, tolerance: float) -> IntArray:
     """(V,) ids such that vertices in one cell of a `tolerance` grid share an id."""
-    cells = np.round((vertices - vertices.min(axis=0)) / max(tolerance, 1e-300)).astype(np.int64)
+    # A floor: a quotient of subnormal numbers would overflow.
+    cells = np.round((vertices - vertices.min(axis=0)) / max(tolerance, 1e-12)).astype(np.int64)
     _, ids = np.unique(cells, axis=0, return_inverse=True)
     return ids.reshape(-1).astype(np.int32)
 

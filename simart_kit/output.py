@@ -51,14 +51,18 @@ def commit(folder: Path, out: Path) -> tuple[str, ...]:
 
     Returns:
         A sentence for each thing kept.
+
+    Raises:
+        OutputError: a symbolic link is in the way; nothing was moved.
     """
     earlier = _earlier_hashes(out)
+    for target in (out / source.name for source in folder.iterdir()):
+        if target.is_symlink():
+            raise OutputError(f"{target} is a symbolic link: remove it or choose another folder with --out")
     kept = []
     # Provenance last: while it is the old one, its hashes tell which of the files are still the old run's.
     for source in sorted(folder.iterdir(), key=lambda p: (p.name == PROVENANCE, p.name)):
         target = out / source.name
-        if target.is_symlink():
-            raise OutputError(f"{target} is a symbolic link: remove it or choose another folder with --out")
         if target.exists():
             if not _is_ours(target, out, earlier):
                 backup = _free_name(target)

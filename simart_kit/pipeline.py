@@ -133,8 +133,15 @@ def _modify(runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset) -> A
     for use in recipe.modify:
         stage, registration = build(use, "modifier", plugins, recipe.seed)
         assert isinstance(stage, Modifier)
-        asset = runner.stage("modify", registration, stage.modify, asset)
+        asset = runner.stage("modify", registration, _modified, asset, stage)
     return asset
+
+
+def _modified(asset: Asset, modifier: Modifier) -> Asset:
+    result = modifier.modify(asset)
+    if not isinstance(result, Asset):
+        raise TypeError(f"modify() returned {type(result).__name__}, expected an Asset")
+    return result
 
 
 def _write(runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset) -> tuple[Report, dict[str, Path]]:
@@ -172,10 +179,11 @@ def _finish(
         arguments=arguments,
     )
     write_json(run.folder / PROVENANCE, record)
+    outputs = _outputs(run, mains)
     kept = commit(run.folder, folder)
     forget_failure(folder)
     notes = report.notes + tuple(Note("output", "warning", text) for text in kept)
-    paths = {key: folder / main.relative_to(run.folder) for key, main in _outputs(run, mains).items()}
+    paths = {key: folder / main.relative_to(run.folder) for key, main in outputs.items()}
     return Result(report.asset, replace(report, notes=notes), paths, folder)
 
 

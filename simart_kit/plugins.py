@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
 import importlib
 import importlib.util
+import inspect
 import os
+import sys
 import traceback
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -16,8 +19,8 @@ from typing import Any
 import pluggy
 
 from . import hookspecs
-from .errors import AmbiguousPluginError, PluginError, UnknownPluginError
-from .stages import Exporter, JointPredictor, Modifier, Segmenter, Stage
+from .errors import AmbiguousPluginError, PluginError, StageError, UnknownPluginError
+from .stages import Exporter, JointPredictor, Modifier, Options, Segmenter, Stage
 
 DEFAULT_PLUGINS = (
     "simart_kit_plugins.loaders.trimesh_loader",
@@ -76,6 +79,11 @@ class Registration:
     value: Any
     owner: Owner
 
+    def failure(self, cause: BaseException) -> StageError:
+        """The error that says that this stage, of this plugin, failed."""
+        owner = self.owner
+        return StageError(self.kind, self.name, owner.plugin, owner.distribution, owner.version, cause)
+
 
 @dataclass(frozen=True)
 class Failure:
@@ -131,8 +139,9 @@ class Plugins:
         self.failures: tuple[Failure, ...] = ()
         self._registrations: list[Registration] = []
         self._owners: dict[int, Owner] = {}
+        own_version = version("simart-kit")
         for name in DEFAULT_PLUGINS:
-            self._load(Owner(name, "built in", version("simart-kit")), name)
+            self._load(Owner(name, "built in", own_version), name)
         for point in _entry_points() if installed else ():
             if self._wanted is None or point.name in self._wanted:
                 dist = point.dist
@@ -143,12 +152,15 @@ class Plugins:
     def register(self, plugin: object, owner: Owner | None = None) -> None:
         """Add a plugin object; raises what its registration raises. Tests use this with fakes."""
         owner = owner or Owner(getattr(plugin, "__name__", type(plugin).__name__), "registered object", "")
-        self.manager.register(plugin, name=f"{owner.plugin}-{id(plugin)}")
+        if self.manager.is_registered(plugin):
+            raise PluginError(f"plugin {owner} is registered already")
         try:
+            self.manager.register(plugin, name=f"{owner.plugin}-{id(plugin)}")
             self.manager.check_pending()
             pending = self._collect(plugin, owner)
         except Exception:
-            self.manager.unregister(plugin)
+            if self.manager.is_registered(plugin):
+                self.manager.unregister(plugin)
             raise
         self._owners[id(plugin)] = owner
         self._registrations += pending
@@ -166,6 +178,14 @@ class Plugins:
             except Exception as error:
                 failed.append((self._owners[id(implementation.plugin)], error))
         return failed
+
+    def hooks(self) -> tuple[tuple[Owner, tuple[str, ...]], ...]:
+        """Every loaded plugin with the hooks that it implements, in loading order."""
+        loaded = [(plugin, self._owners[id(plugin)]) for _, plugin in self.manager.list_name_plugin()]
+        return tuple(
+            (owner, tuple(sorted(caller.name for caller in self.manager.get_hookcallers(plugin) or ())))
+            for plugin, owner in loaded
+        )
 
     def find(self, kind: str, name: str) -> Registration:
         """The one registration of this kind and name.
@@ -229,6 +249,11 @@ def _checked(stage: Any, base: type[Stage], owner: Owner) -> Registration:
     name = getattr(stage, "name", None)
     if not isinstance(name, str) or not name:
         raise TypeError(f"{stage.__name__} needs a class attribute `name`, such as name = 'mine'")
+    if inspect.isabstract(stage):
+        missing = ", ".join(sorted(stage.__abstractmethods__))
+        raise TypeError(f"{stage.__name__} does not implement {missing}()")
+    if not (isinstance(stage.Options, type) and issubclass(stage.Options, Options)):
+        raise TypeError(f"{stage.__name__}.Options is not a subclass of simart_kit.Options")
     return Registration(base.kind, name, stage, owner)
 
 
@@ -251,9 +276,17 @@ def _import(source: str | EntryPoint | Path) -> Any:
 def _import_file(path: Path) -> ModuleType:
     if not path.is_file():
         raise FileNotFoundError(f"no plugin file {path}")
-    spec = importlib.util.spec_from_file_location(f"simart_kit_file_{path.stem}", path)
+    digest = hashlib.sha256(str(path.resolve()).encode()).hexdigest()[:8]
+    name = f"simart_kit_file_{path.stem}_{digest}"
+    spec = importlib.util.spec_from_file_location(name, path)
     if spec is None or spec.loader is None:
         raise ImportError(f"{path} is not a Python file")
     module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    # Dataclasses and pydantic look postponed annotations up through sys.modules.
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise
     return module

@@ -7,11 +7,11 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from .errors import PluginError, RecipeError
+from .errors import PluginError, RecipeError, UnknownPluginError
 from .plugins import Plugins, Registration
 from .stages import Options, Stage
 
@@ -34,14 +34,17 @@ class Recipe(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
     # `schema` would hide a pydantic method, so the field has another name than its key.
-    version: int = Field(default=1, alias="schema", ge=1, le=1, description="Version of the recipe format.")
+    version: Literal[1] = Field(default=1, alias="schema", description="Version of the recipe format.")
     description: str = Field(default="", description="One line for `recipes list`.")
     seed: int = Field(default=0, ge=0, description="Seed of every random generator of the run.")
     stage_timeout: float = Field(
-        default=600.0, ge=0, description="Longest time a stage may take [s]; 0: no limit."
+        default=600.0,
+        ge=0,
+        allow_inf_nan=False,
+        description="Longest time a stage may take [s]; 0: no limit.",
     )
-    segmenter: Use
-    joints: Use
+    segmenter: Use = Field(description="Finds the parts.")
+    joints: Use = Field(description="Says how the parts move.")
     modify: tuple[Use, ...] = Field(default=(), description="Modifiers, in order.")
     export: tuple[Use, ...] = Field(default=(), description="Exporters.")
 
@@ -85,26 +88,38 @@ def parse_recipe(table: Mapping[str, Any], plugins: Plugins, where: str) -> Reci
     mistakes: list[str] = []
     recipe = None
     try:
-        recipe = Recipe.model_validate_json(
-            json.dumps({k: v for k, v in table.items() if k != "extends"}, default=str)
-        )
+        recipe = Recipe.model_validate_json(json.dumps(table, default=str))
     except ValidationError as error:
         mistakes += [_told(e["loc"], e) for e in error.errors()]
-    mistakes += _stage_mistakes(table, plugins)
+    found, failed = _stage_mistakes(table, plugins)
+    mistakes += found
     if mistakes or recipe is None:
-        raise RecipeError(f"recipe '{where}' has {len(mistakes)} mistake(s): " + "; ".join(mistakes))
+        told = "; ".join([*mistakes, *failed])
+        raise RecipeError(f"recipe '{where}' has {len(mistakes)} mistake(s): {told}")
     return _with_defaults(recipe, plugins)
 
 
 def build(use: Use, kind: str, plugins: Plugins, seed: int) -> tuple[Stage, Registration]:
-    """Make the stage that a checked recipe names."""
+    """Make a stage that a recipe names.
+
+    Raises:
+        RecipeError: its options are wrong.
+        StageError: its constructor failed.
+    """
     registration = plugins.find(kind, use.use)
     stage_class: type[Stage] = registration.value
-    return stage_class(read_options(stage_class, use.options), seed=seed), registration
+    try:
+        options = read_options(stage_class, use.options)
+    except ValidationError as error:
+        raise RecipeError("; ".join(_option_mistakes(kind, stage_class, error))) from error
+    try:
+        return stage_class(options, seed=seed), registration
+    except Exception as cause:
+        raise registration.failure(cause) from cause
 
 
 def read_options(stage: type[Stage], table: Any) -> Options:
-    """Validate an options table; by way of JSON, so that TOML's arrays may fill tuples even in strict mode."""
+    """Validate an options table; by way of JSON, so that TOML arrays may fill tuples in strict mode."""
     return stage.Options.model_validate_json(json.dumps(table, default=str))
 
 
@@ -117,7 +132,10 @@ def apply_set(table: Table, text: str) -> Table:
     change: Any = _toml_value(value_text)
     if path[0] in _LISTS and len(path) > 1:
         name, rest = path[1], path[2:]
-        entries = [dict(entry) for entry in table.get(path[0], [])]
+        entries = table.get(path[0], [])
+        if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
+            raise RecipeError(f"--set '{text}': the recipe's {path[0]} is not a list of tables")
+        entries = list(entries)
         matching = [i for i, entry in enumerate(entries) if entry.get("use") == name]
         if not matching:
             known = ", ".join(str(e.get("use")) for e in entries) or "none"
@@ -142,26 +160,28 @@ def _with_defaults(recipe: Recipe, plugins: Plugins) -> Recipe:
 
 def _resolve(source: str | Path, plugins: Plugins, base: Path | None, chain: tuple[str, ...]) -> Table:
     path = _find(source, plugins, base)
-    if str(path) in chain:
-        raise RecipeError(f"recipes extend each other in a loop: {' -> '.join((*chain, str(path)))}")
+    chain = (*chain, str(path))
+    if path.resolve() in {Path(earlier).resolve() for earlier in chain[:-1]}:
+        raise RecipeError(f"recipes extend each other in a loop: {' -> '.join(chain)}")
     table = _read(path)
     parent = table.pop("extends", None)
     if parent is None:
         return table
     if not isinstance(parent, str):
         raise RecipeError(f"{path}: extends must be one recipe name or file, got {parent!r}")
-    return _merge(_resolve(parent, plugins, path.parent, (*chain, str(path))), table)
+    return _merge(_resolve(parent, plugins, path.parent, chain), table)
 
 
 def _find(source: str | Path, plugins: Plugins, base: Path | None) -> Path:
-    known = known_recipes(plugins)
-    if str(source) in known:
-        return known[str(source)]
+    name, known = str(source), known_recipes(plugins)
+    if name in known:
+        return packaged_recipes().get(name) or Path(plugins.find("recipe", name).value)
     path = (base or Path()) / source
     if path.is_file():
         return path
+    asked = f"extended from {base}, " if base else ""
     raise RecipeError(
-        f"unknown recipe '{source}': known are {', '.join(sorted(known))}, or give a .toml file"
+        f"unknown recipe '{source}': {asked}known are {', '.join(sorted(known))}, or give a .toml file"
     )
 
 
@@ -204,14 +224,16 @@ def _nest(path: list[str], value: Any, text: str) -> Table:
 
 def _toml_value(text: str) -> Any:
     try:
-        return tomllib.loads(f"v = {text}")["v"]
+        table = tomllib.loads(f"v = {text}")
     except tomllib.TOMLDecodeError:
         return text
+    return table["v"] if table.keys() == {"v"} else text
 
 
-def _stage_mistakes(table: Mapping[str, Any], plugins: Plugins) -> list[str]:
-    """Unknown stages and wrong options, each with its place."""
-    mistakes = []
+def _stage_mistakes(table: Mapping[str, Any], plugins: Plugins) -> tuple[list[str], set[str]]:
+    """Unknown stages and wrong options, each with its place; and, told once, plugins that failed to load."""
+    mistakes: list[str] = []
+    failed: set[str] = set()
     uses = [(key, table.get(key), kind) for key, kind in _SINGLES.items()]
     for key, kind in _LISTS.items():
         entries = table.get(key, [])
@@ -221,14 +243,26 @@ def _stage_mistakes(table: Mapping[str, Any], plugins: Plugins) -> list[str]:
             continue  # told already by the recipe's own check
         try:
             stage: type[Stage] = plugins.find(kind, use["use"]).value
-            read_options(stage, use.get("options", {}))
+            if isinstance(use.get("options", {}), Mapping):
+                read_options(stage, use.get("options", {}))
+        except UnknownPluginError as error:
+            mistakes.append(f"{_place(key, use)}: {error.missing}")
+            failed |= {error.failed} - {""}
         except PluginError as error:
-            mistakes.append(f"[{key}] {error}")
+            mistakes.append(f"{_place(key, use)}: {error}")
         except ValidationError as error:
-            place = key if key in _SINGLES else f"{key}.{use['use']}"
-            known = ", ".join(stage.Options.model_fields) or "none"
-            mistakes += [_told((place, "options", *e["loc"]), e, known) for e in error.errors()]
-    return mistakes
+            mistakes += _option_mistakes(_place(key, use), stage, error)
+    return mistakes, failed
+
+
+def _place(key: str, use: Mapping[str, Any]) -> str:
+    """Where a stage stands, as `--set` names it."""
+    return key if key in _SINGLES else f"{key}.{use['use']}"
+
+
+def _option_mistakes(place: str, stage: type[Stage], error: ValidationError) -> list[str]:
+    known = ", ".join(stage.Options.model_fields) or "none"
+    return [_told((place, "options", *e["loc"]), e, known) for e in error.errors()]
 
 
 def _told(location: tuple[int | str, ...], error: Any, known: str = "") -> str:

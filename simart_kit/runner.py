@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 from .asset_io import save_value
-from .errors import StageError
 from .mesh import Note
 from .plugins import Plugins, Registration
 from .timeout import time_limit
@@ -81,10 +80,7 @@ class Runner:
             with time_limit(self.run.recipe.stage_timeout):
                 value = function(*args, **kwargs)
         except (Exception, SystemExit) as cause:
-            owner = registration.owner
-            error = StageError(
-                registration.kind, registration.name, owner.plugin, owner.distribution, owner.version, cause
-            )
+            error = registration.failure(cause)
             save_value(args[0], self.run.folder / "failed" / "input")
             self.tell("run_failed", stage=stage, error=error)
             raise error from cause

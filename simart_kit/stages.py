@@ -21,6 +21,9 @@ class Options(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
+_AnyOptions = Options  # inside Stage, the name `Options` is the nested class
+
+
 class Stage(ABC):
     """Base of all stages. Nest `class Options(simart_kit.Options)` and annotate `options: Options`.
 
@@ -37,9 +40,9 @@ class Stage(ABC):
     class Options(Options):
         """A stage without options."""
 
-    options: Options
+    options: _AnyOptions
 
-    def __init__(self, options: Options | None = None, *, seed: int = 0) -> None:
+    def __init__(self, options: _AnyOptions | None = None, *, seed: int = 0) -> None:
         self.options = self.Options() if options is None else options
         self.seed = seed
 

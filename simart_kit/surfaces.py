@@ -39,11 +39,6 @@ class Surface:
     faces: IntArray
     source_faces: IntArray
 
-    @property
-    def name(self) -> str:
-        """Unique within an asset: the part's name, numbered from its second material on."""
-        return self.part if self.index == 0 else f"{self.part}_{self.index + 1}"
-
 
 def asset_surfaces(asset: Asset) -> dict[str, tuple[Surface, ...]]:
     """The surfaces of every part, by part name; at least one each."""
