@@ -1,0 +1,91 @@
+"""How far pieces are from each other: exact distances of their points to the other's triangles."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from simart_kit.arrays import FloatArray
+
+from .scene import Scene
+
+_MOST_POINTS, _MOST_TRIANGLES = 400, 4000
+
+
+class Contacts:
+    """Distances between the pieces of a scene, worked out once each when asked for.
+
+    Args:
+        scene: the pieces.
+        reach: distances are only searched up to here; larger ones count as infinite.
+    """
+
+    def __init__(self, scene: Scene, reach: float = 0.02) -> None:
+        self._scene = scene
+        self._reach = reach
+        order = np.argsort(scene.labels, kind="stable")
+        counts = np.bincount(scene.labels, minlength=scene.count)
+        self._faces = np.split(order, np.cumsum(counts)[:-1])
+        self._known: dict[tuple[int, int], float] = {}
+
+    def gap(self, a: int, b: int) -> float:
+        """Smallest distance between two pieces, infinite beyond reach."""
+        key = (min(a, b), max(a, b))
+        if key not in self._known:
+            near = self._scene.boxes[a].overlap(self._scene.boxes[b], self._reach)
+            self._known[key] = min(self._one_way(a, b), self._one_way(b, a)) if near else np.inf
+        return self._known[key]
+
+    def touching(self, piece: int, gap: float) -> list[int]:
+        """Other pieces within `gap`."""
+        return [other for other in range(self._scene.count) if other != piece and self.gap(piece, other) <= gap]
+
+    def _one_way(self, a: int, b: int) -> float:
+        """Points of a against triangles of b, both only where the other's box is near."""
+        points = self._scene.triangles[self._faces[a]]
+        points = np.concatenate([points.reshape(-1, 3), points.mean(axis=1)])
+        box = self._scene.boxes[b]
+        inside = ((points >= box.lower - self._reach) & (points <= box.upper + self._reach)).all(axis=1)
+        points = _spread(np.unique(points[inside], axis=0), _MOST_POINTS)
+        triangles = self._scene.triangles[self._faces[b]]
+        box = self._scene.boxes[a]
+        low, high = triangles.min(axis=1), triangles.max(axis=1)
+        close = ((low <= box.upper + self._reach) & (high >= box.lower - self._reach)).all(axis=1)
+        triangles = _spread(triangles[close], _MOST_TRIANGLES)
+        if not len(points) or not len(triangles):
+            return np.inf
+        nearest = float(point_triangle_distances(points, triangles).min())
+        return nearest if nearest <= self._reach else np.inf
+
+
+def point_triangle_distances(points: FloatArray, triangles: FloatArray) -> FloatArray:
+    """(N,) distance of each point to the nearest of (M, 3, 3) triangles."""
+    return np.concatenate([
+        _block(points[start : start + 64], triangles).min(axis=1) for start in range(0, len(points), 64)
+    ])
+
+
+def _block(points: FloatArray, triangles: FloatArray) -> FloatArray:
+    """(N, M) distances: to the plane where the foot lies inside, else to the nearest edge."""
+    a, b, c = triangles.transpose(1, 0, 2)
+    normal = np.cross(b - a, c - a)
+    length = np.linalg.norm(normal, axis=1)
+    unit = normal / np.maximum(length, 1e-30)[:, None]
+    offset = points[:, None] - a
+    height = np.einsum("nmi,mi->nm", offset, unit)
+    inside = np.broadcast_to(length > 1e-14, height.shape).copy()
+    nearest = np.full(height.shape, np.inf)
+    for start, end in ((a, b), (b, c), (c, a)):
+        edge = end - start
+        away = points[:, None] - start
+        inside &= np.einsum("nmi,mi->nm", away, np.cross(unit, edge)) >= 0
+        along = np.einsum("nmi,mi->nm", away, edge) / np.maximum((edge**2).sum(axis=1), 1e-30)
+        foot = np.clip(along, 0, 1)[..., None] * edge
+        nearest = np.minimum(nearest, np.linalg.norm(away - foot, axis=2))
+    return np.where(inside, np.abs(height), nearest)
+
+
+def _spread(values: FloatArray, most: int) -> FloatArray:
+    """At most so many rows, evenly taken."""
+    if len(values) <= most:
+        return values
+    return values[np.linspace(0, len(values) - 1, most).astype(int)]

@@ -1,0 +1,271 @@
+"""Fronts: pieces that close something off towards one side, with what hangs on them and what lies behind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from simart_kit.arrays import BoolArray, FloatArray
+
+from .contact import Contacts
+from .scene import FACINGS, Box, Scene
+
+# All lengths are shares of the object's diagonal.
+TOUCH = 0.004  # closer than this, a handle sits on its panel
+HOLDS = 0.001  # closer than this, a wall holds a shelf
+HANGS = 0.012  # closer than this, a box behind a front hangs on it
+SMALLEST = 0.035  # a front is at least this wide and high
+SPANNING = 0.7  # a piece that fills this share of every extent is the body
+VISIBLE = 0.7  # share of a front's rectangle that is seen from outside
+
+
+@dataclass(frozen=True, eq=False)
+class Front:
+    """A piece seen squarely from one side.
+
+    Attributes:
+        piece: the panel, or the box with a front.
+        facing: key of `FACINGS`.
+        box: of the piece, in (u, v, w).
+        inlays: pieces within the panel's rectangle and thickness, such as glass.
+        handles: pieces that stick out of it and touch nothing else.
+        behind: pieces within its rectangle that hang on its back, such as a drawer's box.
+        walled: share of rays from behind it to the sides that meet something.
+        backed: share of rays from behind it straight back that meet something.
+        depth: median way of those rays.
+        framed: share of sides on which something stands close beside it.
+        boxed: whether it, with what hangs behind it, reaches as far back as a drawer does.
+    """
+
+    piece: int
+    facing: str
+    box: Box
+    inlays: tuple[int, ...]
+    handles: tuple[int, ...]
+    behind: tuple[int, ...]
+    walled: float
+    backed: float
+    depth: float
+    framed: float
+    boxed: bool
+
+    @property
+    def pieces(self) -> tuple[int, ...]:
+        """All that moves with it."""
+        return (self.piece, *self.inlays, *self.handles, *self.behind)
+
+    @property
+    def area(self) -> float:
+        """Of its rectangle, as a share of the squared diagonal."""
+        return float(self.box.size[0] * self.box.size[1])
+
+
+def find_fronts(scene: Scene, contacts: Contacts, facing: str) -> list[Front]:
+    """Every front towards one side."""
+    axes = FACINGS[facing]
+    boxes = [box.turned(axes) for box in scene.boxes]
+    whole = scene.box.turned(axes)
+    found = []
+    for piece, box in enumerate(boxes):
+        if (box.size[:2] < SMALLEST).any() or (box.size >= SPANNING * whole.size).all():
+            continue
+        if box.upper[2] < whole.center[2]:
+            continue  # seen through an opening, it is a back wall
+        inlays = _inlays(boxes, piece)
+        if _seen(scene, axes, box, (piece, *inlays)) >= VISIBLE:
+            found.append(_front(scene, contacts, facing, boxes, piece, inlays))
+    return found
+
+
+def _front(
+    scene: Scene, contacts: Contacts, facing: str, boxes: list[Box], piece: int, inlays: tuple[int, ...]
+) -> Front:
+    axes, box = FACINGS[facing], boxes[piece]
+    handles = _handles(contacts, boxes, piece, inlays)
+    behind = _behind(contacts, boxes, piece, (*inlays, *handles))
+    if behind and not _drawer_box(scene, axes, boxes, piece, behind):
+        behind = ()  # racks, baskets and rails are not a drawer's box: they stay when a door opens
+    own = (piece, *inlays, *handles, *behind)
+    whole = scene.box.turned(axes)
+    walled, backed, depth = _surroundings(scene, axes, box, own)
+    return Front(
+        piece, facing, box, inlays, handles, behind, walled, backed, depth,
+        framed=_framed(scene, axes, box, own),
+        boxed=_boxed(box.upper[2] - min(boxes[i].lower[2] for i in (piece, *behind)), box, whole),
+    )
+
+
+def _boxed(reach: float, front: Box, whole: Box) -> bool:
+    """Whether a front with this reach behind it [w] is a drawer's."""
+    return bool(reach > 0.3 * whole.size[2] and reach > 0.3 * front.size[:2].min())
+
+
+def _within(inner: Box, outer: Box, margin: float) -> bool:
+    """Whether one rectangle (u, v) lies in another."""
+    return bool(
+        (inner.lower[:2] >= outer.lower[:2] - margin).all() and (inner.upper[:2] <= outer.upper[:2] + margin).all()
+    )
+
+
+def _inlays(boxes: list[Box], piece: int) -> tuple[int, ...]:
+    panel = boxes[piece]
+    return tuple(
+        i
+        for i, box in enumerate(boxes)
+        if i != piece
+        and _within(box, panel, 0.0)
+        and box.lower[2] >= panel.lower[2] - TOUCH
+        and box.upper[2] <= panel.upper[2] + TOUCH
+    )
+
+
+def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int, ...]) -> tuple[int, ...]:
+    panel = boxes[piece]
+    reach = 0.5 * (panel.lower[2] + panel.upper[2])
+    found = [
+        i
+        for i, box in enumerate(boxes)
+        if i not in (piece, *inlays)
+        and _within(box, panel, 0.5 * TOUCH)
+        and box.upper[2] > panel.upper[2] + 0.5 * TOUCH
+        and box.upper[2] > reach
+        and np.prod(box.size[:2]) < 0.4 * np.prod(panel.size[:2])
+        and box.size[2] < 0.5 * panel.size[:2].max()
+    ]
+    # What touches the panel is on it, and so is what touches that: a knob on its stem.
+    on = {piece, *inlays}
+    grown = True
+    while grown:
+        more = [i for i in found if i not in on and any(contacts.gap(i, j) <= TOUCH for j in on)]
+        on.update(more)
+        grown = bool(more)
+    return tuple(i for i in found if i in on)
+
+
+def _behind(contacts: Contacts, boxes: list[Box], piece: int, front: tuple[int, ...]) -> tuple[int, ...]:
+    """A drawer's box behind its front: it hangs on the front, and no wall beside it holds it."""
+    panel = boxes[piece]
+    inside = [
+        i
+        for i, box in enumerate(boxes)
+        if i not in (piece, *front)
+        and _within(box, panel, 0.0)
+        and box.upper[2] <= panel.upper[2] + TOUCH
+    ]
+    hanging: set[int] = {piece}
+    grown = True
+    while grown:
+        more = [
+            i
+            for i in inside
+            if i not in hanging and any(contacts.gap(i, j) <= HANGS for j in hanging)
+            and not _held(contacts, boxes, i, {piece, *front, *inside})
+        ]
+        hanging.update(more)
+        grown = bool(more)
+    return tuple(i for i in inside if i in hanging)
+
+
+def _held(contacts: Contacts, boxes: list[Box], piece: int, own: set[int]) -> bool:
+    """Whether something beside a piece holds it at both ends, as walls hold a shelf."""
+    box = boxes[piece]
+    holders = [
+        i
+        for i, other in enumerate(boxes)
+        if i not in own and other.lower[1] < box.center[1] < other.upper[1] and contacts.gap(piece, i) <= HOLDS
+    ]
+    left = any(boxes[i].lower[0] <= box.lower[0] + TOUCH for i in holders)
+    right = any(boxes[i].upper[0] >= box.upper[0] - TOUCH for i in holders)
+    return left and right
+
+
+def _drawer_box(scene: Scene, axes: FloatArray, boxes: list[Box], piece: int, behind: tuple[int, ...]) -> bool:
+    """Whether what hangs behind fills the front's rectangle fairly, and is closed when seen from below."""
+    inner = Box(np.min([boxes[i].lower for i in behind], axis=0), np.max([boxes[i].upper for i in behind], axis=0))
+    if (inner.size[:2] < (0.6, 0.3) * boxes[piece].size[:2]).any():
+        return False
+    below = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # (u, v, w) -> across, depth, downward
+    points = _grid(inner.turned(below), 8, 0.9)
+    origins = np.column_stack([points[:, 0], np.full(len(points), inner.lower[1] - 0.01), points[:, 1]])
+    others = tuple(i for i in range(scene.count) if i not in behind)
+    labels, _ = _cast(scene, axes, origins, np.array([0.0, 1.0, 0.0]), others)
+    return float((labels >= 0).mean()) >= 0.85
+
+
+def _grid(box: Box, count: int, shrink: float) -> FloatArray:
+    """(count^2, 2) points of a rectangle (u, v)."""
+    steps = (np.arange(count) + 0.5) / count * 2 - 1
+    u, v = np.meshgrid(steps, steps)
+    return box.center[:2] + 0.5 * shrink * box.size[:2] * np.column_stack([u.ravel(), v.ravel()])
+
+
+def _seen(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> float:
+    """Share of the rectangle where the own pieces, or what sits on them, are met first from outside."""
+    points = _grid(box, 12, 1.0)
+    outside = scene.box.turned(axes).upper[2] + 1.0
+    origins = np.column_stack([points, np.full(len(points), outside)])
+    labels, distance = _cast(scene, axes, origins, np.array([0.0, 0.0, -1.0]))
+    met = outside - distance
+    on_top = (met > box.upper[2] - TOUCH) & (met < box.upper[2] + 0.1)  # a handle hides some of its panel
+    return float((np.isin(labels, own) | on_top & _small(scene, labels, box)).mean())
+
+
+def _small(scene: Scene, labels: FloatArray, box: Box) -> BoolArray:
+    areas = np.append(scene.areas, 0.0)
+    return np.asarray(areas[labels] < 0.5 * np.prod(box.size[:2]))
+
+
+def _surroundings(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> tuple[float, float, float]:
+    """Shares of rays from just behind the panel that meet other pieces: to the sides, and straight back."""
+    behind = box.lower[2] if box.size[2] < 0.05 else box.upper[2] - 0.02
+    points = _grid(box, 5, 0.8)
+    origins = np.column_stack([points, np.full(len(points), behind - 0.5 * TOUCH)])
+    sides = []
+    for direction in ([1.0, 0, 0], [-1.0, 0, 0], [0, 1.0, 0], [0, -1.0, 0]):
+        labels, _ = _cast(scene, axes, origins, np.array(direction), own)
+        sides.append((labels >= 0).mean())
+    labels, distance = _cast(scene, axes, origins, np.array([0.0, 0.0, -1.0]), own)
+    met = labels >= 0
+    return float(np.mean(sides)), float(met.mean()), float(np.median(distance[met])) if met.any() else 0.0
+
+
+def _framed(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> float:
+    """Share of the four sides with another piece close beside the panel."""
+    near = 0.05
+    sides = []
+    for axis in (0, 1):
+        for sign in (-1.0, 1.0):
+            points = np.tile(box.center, (5, 1))
+            points[:, 1 - axis] += np.linspace(-0.3, 0.3, 5) * box.size[1 - axis]
+            points[:, axis] = box.upper[axis] if sign > 0 else box.lower[axis]
+            direction = np.zeros(3)
+            direction[axis] = sign
+            labels, distance = _cast(scene, axes, points - 0.001 * direction, direction, own)
+            sides.append(((labels >= 0) & (distance < near)).mean() > 0.5)
+    return float(np.mean(sides))
+
+
+def _cast(
+    scene: Scene, axes: FloatArray, origins: FloatArray, direction: FloatArray, passing: tuple[int, ...] = ()
+) -> tuple[FloatArray, FloatArray]:
+    """Piece met first by rays given in (u, v, w), and how far; pieces in `passing` are passed through."""
+    origins = origins @ axes
+    direction = direction @ axes
+    labels = np.full(len(origins), -1)
+    total = np.zeros(len(origins))
+    open_rays = np.arange(len(origins))
+    for _ in range(16):
+        faces, distance = scene.rays.first(origins[open_rays], direction)
+        piece = np.where(faces >= 0, scene.labels[faces], -1)
+        total[open_rays] += distance
+        labels[open_rays] = piece
+        again = np.isin(piece, passing) & (piece >= 0)
+        if not again.any():
+            break
+        labels[open_rays[again]] = -1
+        step = distance[again] + 1e-4
+        total[open_rays[again]] += 1e-4
+        open_rays = open_rays[again]
+        origins[open_rays] += step[:, None] * direction
+    return labels, total

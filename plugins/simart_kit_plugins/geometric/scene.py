@@ -1,0 +1,156 @@
+"""The object as pieces in a frame whose axes follow its faces, one unit across."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from simart_kit.arrays import FloatArray, IntArray
+from simart_kit.kinematics import rotation
+from simart_kit.mesh import Mesh
+from simart_kit.rays import Rays
+
+# Directions that something may open to, as rows (u, v, w): u across, v up, w outward. The last opens upward.
+FACINGS: dict[str, FloatArray] = {
+    "front": np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]),
+    "back": np.array([[-1.0, 0, 0], [0, 0, 1], [0, 1, 0]]),
+    "left": np.array([[0, -1.0, 0], [0, 0, 1], [-1, 0, 0]]),
+    "right": np.array([[0, 1.0, 0], [0, 0, 1], [1, 0, 0]]),
+    "top": np.array([[1.0, 0, 0], [0, 1, 0], [0, 0, 1]]),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    """An axis-aligned box.
+
+    Attributes:
+        lower: (3,) corner.
+        upper: (3,) corner.
+    """
+
+    lower: FloatArray
+    upper: FloatArray
+
+    @property
+    def size(self) -> FloatArray:
+        """(3,) extents."""
+        return self.upper - self.lower
+
+    @property
+    def center(self) -> FloatArray:
+        """(3,) middle."""
+        return (self.lower + self.upper) / 2
+
+    def turned(self, facing: FloatArray) -> Box:
+        """The box along the axes of a facing (a signed permutation)."""
+        corners = np.stack([facing @ self.lower, facing @ self.upper])
+        return Box(corners.min(axis=0), corners.max(axis=0))
+
+    def overlap(self, other: Box, margin: float) -> bool:
+        """Whether the boxes come within `margin` of each other."""
+        return bool((self.lower - margin <= other.upper).all() and (other.lower - margin <= self.upper).all())
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Triangles in the aligned frame, grouped into pieces.
+
+    Attributes:
+        triangles: (F, 3, 3) corners; the object's diagonal is 1.
+        labels: (F,) piece of each face, 0..count-1.
+        count: number of pieces.
+        aligned_from_asset: (3, 3) rotation about the vertical.
+        size: diagonal of the object [m].
+        origin: (3,) point of the asset frame that is the aligned frame's origin [m].
+    """
+
+    triangles: FloatArray
+    labels: IntArray
+    count: int
+    aligned_from_asset: FloatArray
+    size: float
+    origin: FloatArray
+
+    @cached_property
+    def rays(self) -> Rays:
+        """All triangles, for casting."""
+        return Rays(self.triangles)
+
+    @cached_property
+    def boxes(self) -> tuple[Box, ...]:
+        """The bounding box of each piece."""
+        lower = np.full((self.count, 3), np.inf)
+        upper = np.full((self.count, 3), -np.inf)
+        np.minimum.at(lower, self.labels, self.triangles.min(axis=1))
+        np.maximum.at(upper, self.labels, self.triangles.max(axis=1))
+        return tuple(Box(low, high) for low, high in zip(lower, upper, strict=True))
+
+    @cached_property
+    def box(self) -> Box:
+        """The bounding box of everything."""
+        corners = self.triangles.reshape(-1, 3)
+        return Box(corners.min(axis=0), corners.max(axis=0))
+
+    @cached_property
+    def areas(self) -> FloatArray:
+        """(count,) surface of each piece."""
+        return np.bincount(self.labels, self.face_areas, self.count)
+
+    @cached_property
+    def face_areas(self) -> FloatArray:
+        """(F,) area of each face."""
+        return np.linalg.norm(self._crosses, axis=1) / 2
+
+    @cached_property
+    def normals(self) -> FloatArray:
+        """(F, 3) unit normals, zero where a face has no area."""
+        return self._crosses / np.maximum(2 * self.face_areas[:, None], 1e-30)
+
+    @cached_property
+    def _crosses(self) -> FloatArray:
+        edges = self.triangles[:, 1:] - self.triangles[:, :1]
+        return np.cross(edges[:, 0], edges[:, 1])
+
+    def faces_of(self, pieces: IntArray | tuple[int, ...]) -> IntArray:
+        """Indices of the faces of some pieces."""
+        return np.flatnonzero(np.isin(self.labels, np.asarray(pieces)))
+
+    def points_to_asset(self, points: FloatArray) -> FloatArray:
+        """(N, 3) aligned points in the asset frame [m]."""
+        return points * self.size @ self.aligned_from_asset + self.origin
+
+    def vector_to_asset(self, vector: FloatArray) -> FloatArray:
+        """(3,) aligned direction in the asset frame."""
+        return vector @ self.aligned_from_asset
+
+
+def make_scene(mesh: Mesh, labels: IntArray) -> Scene:
+    """Put a mesh and its (F,) labels 0..N-1 into the aligned frame."""
+    turn = rotation(np.array([0.0, 0.0, -yaw(mesh)]))
+    origin = mesh.bounds.mean(axis=0)
+    triangles = (mesh.triangles - origin) @ turn.T / mesh.diagonal
+    return Scene(triangles, np.asarray(labels), int(labels.max()) + 1, turn, mesh.diagonal, origin)
+
+
+def yaw(mesh: Mesh) -> float:
+    """Turn of the object's upright faces against the axes [rad], in (-pi/4, pi/4].
+
+    The fullest one-degree bin of directions, modulo a quarter turn; 0 where no direction stands out.
+    """
+    normals, areas = mesh.face_normals, mesh.face_areas
+    upright = np.abs(normals[:, 2]) < 0.2
+    if areas[upright].sum() < 0.05 * areas.sum():
+        return 0.0
+    angles = np.arctan2(normals[upright, 1], normals[upright, 0])
+    quarter = np.mod(angles + np.pi / 4, np.pi / 2) - np.pi / 4
+    weights = areas[upright]
+    histogram, edges = np.histogram(quarter, bins=90, range=(-np.pi / 4, np.pi / 4), weights=weights)
+    if histogram.max() < 0.25 * weights.sum():
+        return 0.0
+    middle = (edges[:-1] + edges[1:])[histogram.argmax()] / 2
+    near = np.abs(quarter - middle) < np.deg2rad(1.5)
+    found = float(np.average(quarter[near], weights=weights[near]))
+    return 0.0 if abs(found) < np.deg2rad(0.5) else found

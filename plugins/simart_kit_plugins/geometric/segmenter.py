@@ -1,0 +1,77 @@
+"""Segmenter `geometric`: segments grouped into parts that can move, without any weights."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from pydantic import Field
+
+import simart_kit
+from simart_kit import Note, PartGuess, Segmentation, Segmenter
+from simart_kit.arrays import frozen_ints
+from simart_kit.segments import Segments, find_segments
+
+from .contact import Contacts
+from .movers import Mover, front_movers
+from .naming import names
+from .rounds import knobs, wheels
+from .scene import Scene, make_scene
+
+if TYPE_CHECKING:
+    from simart_kit import Mesh
+
+_MOST_PIECES = 600
+
+
+class Geometric(Segmenter):
+    """Doors, drawers, lids, wheels and knobs by their shape, handles and what lies behind them."""
+
+    name = "geometric"
+
+    class Options(simart_kit.Options):
+        """What to look for."""
+
+        max_parts: int = Field(default=32, ge=1, description="Most moving parts; the surest are kept.")
+        crease: float = Field(default=25.0, gt=0, lt=90, description="Angle that bounds patches [degrees].")
+        node_hint: bool = Field(default=False, description="Keep scene-graph nodes of the file apart.")
+
+    options: Options
+
+    def segment(self, mesh: Mesh) -> Segmentation:
+        """The body as part 0, then every mover found; a static object is one part."""
+        segments = find_segments(mesh, np.deg2rad(self.options.crease), self.options.node_hint)
+        # Segments come largest first: what is beyond the most pieces counts as one, and stays with the body.
+        scene = make_scene(mesh, np.minimum(segments.face_segment, _MOST_PIECES))
+        movers = _find(scene, segments)[: self.options.max_parts]
+        face_part = np.zeros(len(mesh.faces), dtype=np.int32)
+        for number, mover in enumerate(movers, start=1):
+            face_part[scene.faces_of(mover.pieces)] = number
+        guesses = [PartGuess("body", label="body")]
+        for mover, name in zip(movers, names(scene, movers), strict=True):
+            told = "; ".join(mover.evidence)
+            guesses.append(PartGuess(name, label=mover.label, score=mover.score, description=told))
+        return Segmentation(
+            frozen_ints(face_part),
+            tuple(guesses),
+            face_segment=segments.face_segment,
+            notes=(Note("segment", "info", segments.describe()), Note("segment", "info", _told(movers))),
+        )
+
+
+def _find(scene: Scene, segments: Segments) -> list[Mover]:
+    if segments.count == 1:
+        return []
+    contacts = Contacts(scene)
+    movers = front_movers(scene, contacts, segments.patches)
+    taken = {piece for mover in movers for piece in mover.pieces}
+    rolling = [m for m in wheels(scene, contacts) if not taken.intersection(m.pieces)]
+    taken.update(piece for mover in rolling for piece in mover.pieces)
+    found = movers + rolling + knobs(scene, taken)
+    return sorted(found, key=lambda mover: -mover.score)
+
+
+def _told(movers: list[Mover]) -> str:
+    if not movers:
+        return "nothing was found that moves: the object is taken as static"
+    return "; ".join(f"{m.label}: {', '.join(m.evidence) or 'by its place'}" for m in movers)

@@ -1,0 +1,101 @@
+"""A part as it is seen from the side that it opens to: where its front lies, and what sticks out of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from simart_kit.arrays import FloatArray, IntArray
+
+from .scene import FACINGS, Box, Scene
+
+_STICKS_OUT = 0.006  # of the diagonal: flatter ornament is not a handle
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """One part and the body, in (u, v, w) of a facing; lengths are shares of the object's diagonal.
+
+    Attributes:
+        part: its id.
+        facing: key of `FACINGS`.
+        box: of the part without what sticks out of its front.
+        handle: of what sticks out of the front, or None.
+        body: bounding box of everything.
+        ajar: angle of the front against the facing, about v, right-handed [rad].
+    """
+
+    part: int
+    facing: str
+    box: Box
+    handle: Box | None
+    body: Box
+    ajar: float
+
+    @property
+    def axes(self) -> FloatArray:
+        """(3, 3) rows u, v, w in the aligned frame."""
+        return FACINGS[self.facing]
+
+    @property
+    def handle_place(self) -> tuple[float, float]:
+        """Middle of the handle on the front, -1..1 across and up; (0, 0) without a handle."""
+        if self.handle is None:
+            return 0.0, 0.0
+        u, v = 2 * (self.handle.center - self.box.center)[:2] / np.maximum(self.box.size[:2], 1e-9)
+        return float(u), float(v)
+
+    @property
+    def is_box(self) -> bool:
+        """Whether it reaches as far back as a drawer does."""
+        depth = self.box.size[2]
+        return bool(depth > 0.3 * self.body.size[2] and depth > 0.3 * self.box.size[:2].min())
+
+
+def view_part(scene: Scene, part: int) -> View:
+    """See a part from the side where most of it shows."""
+    faces = scene.faces_of((part,))
+    facing = max(FACINGS, key=lambda name: _shown(scene, FACINGS[name], part))
+    axes = FACINGS[facing]
+    corners = scene.triangles[faces] @ axes.T
+    front, ajar = _front_plane(scene, axes, faces, corners)
+    whole = Box(corners.min(axis=(0, 1)), corners.max(axis=(0, 1)))
+    box, handle = whole, None
+    if whole.upper[2] - front > _STICKS_OUT:
+        out = corners[(corners[:, :, 2] > front + 0.3 * (whole.upper[2] - front)).all(axis=1)].reshape(-1, 3)
+        if len(out) and np.prod(np.ptp(out[:, :2], axis=0)) < 0.4 * np.prod(whole.size[:2]):
+            handle = Box(out.min(axis=0), out.max(axis=0))
+            box = Box(whole.lower, np.array([whole.upper[0], whole.upper[1], front]))
+    return View(part, facing, box, handle, scene.box.turned(axes), ajar)
+
+
+def _shown(scene: Scene, axes: FloatArray, part: int) -> float:
+    """Area of a part's rectangle that is seen from outside."""
+    box = scene.boxes[part].turned(axes)
+    steps = (np.arange(8) + 0.5) / 8
+    u, v = np.meshgrid(box.lower[0] + steps * box.size[0], box.lower[1] + steps * box.size[1])
+    outside = scene.box.turned(axes).upper[2] + 1.0
+    origins = np.column_stack([u.ravel(), v.ravel(), np.full(u.size, outside)])
+    faces, _ = scene.rays.first(origins @ axes, np.array([0.0, 0.0, -1.0]) @ axes)
+    seen = (faces >= 0) & (scene.labels[faces] == part)
+    return float(seen.mean() * np.prod(box.size[:2]))
+
+
+def _front_plane(
+    scene: Scene, axes: FloatArray, faces: IntArray, corners: FloatArray
+) -> tuple[float, float]:
+    """Where most of the outward surface lies [w], and how far it is turned about v [rad]."""
+    normals = scene.normals[faces] @ axes.T
+    outward = np.flatnonzero(normals[:, 2] > 0.8)
+    if not len(outward):
+        return float(corners[:, :, 2].max()), 0.0
+    areas = scene.face_areas[faces][outward]
+    normal = areas @ normals[outward]
+    ajar = float(np.arctan2(normal[0], normal[2]))
+    heights = corners[outward].max(axis=1)[:, 2]
+    edges = np.linspace(heights.min(), heights.max() + 1e-9, 33)
+    histogram, _ = np.histogram(heights, bins=edges, weights=areas)
+    # The outermost level with a fair share: ornament on a panel must not hide the panel.
+    fair = np.flatnonzero(histogram >= 0.3 * histogram.max())
+    return float(edges[fair[-1] + 1]), ajar

@@ -1,0 +1,90 @@
+"""Modifier `snap`: turn joint axes that are nearly along the geometry exactly along it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from pydantic import Field
+
+import simart_kit
+from simart_kit import Modifier, hookimpl
+from simart_kit.arrays import vec3
+
+# Narrow: a door that stands ajar must not pull the cabinet's own direction towards it.
+_SAME_DIRECTION = np.deg2rad(0.5)
+
+if TYPE_CHECKING:
+    from simart_kit import Asset
+    from simart_kit.arrays import FloatArray
+    from simart_kit.hookspecs import Register
+
+
+class Snap(Modifier):
+    """Axes within an angle of a main direction of the surface take that direction."""
+
+    name = "snap"
+
+    class Options(simart_kit.Options):
+        """How near is near."""
+
+        angle: float = Field(default=8.0, gt=0, le=45, description="Largest turn of an axis [degrees].")
+        share: float = Field(
+            default=0.05, gt=0, le=1, description="Share of the surface that a main direction needs to face along it."
+        )
+
+    options: Options
+
+    def modify(self, asset: Asset) -> Asset:
+        """The asset with snapped axes; a note for each that changed."""
+        directions = main_directions(asset.mesh.face_normals, asset.mesh.face_areas, self.options.share)
+        changed, told = {}, []
+        for joint in asset.joints:
+            if joint.kind not in ("revolute", "continuous", "prismatic"):
+                continue
+            axis = np.array(joint.axis)
+            along = directions @ axis
+            best = int(np.abs(along).argmax())
+            angle = float(np.degrees(np.arccos(np.clip(abs(along[best]), 0, 1))))
+            if 1e-4 < angle <= self.options.angle:
+                snapped = directions[best] * np.sign(along[best])
+                changed[joint.name] = replace(joint, axis=vec3(snapped))
+                if angle > 0.01:
+                    told.append(f"{joint.name}: axis turned by {angle:.2f} degrees onto the geometry")
+        return asset.with_joints(changed).with_notes("snap", "info", told)
+
+
+def main_directions(normals: FloatArray, areas: FloatArray, share: float) -> FloatArray:
+    """(N, 3) unit directions that at least `share` of the area faces, either way; +z is always one.
+
+    Args:
+        normals: (F, 3) unit.
+        areas: (F,).
+        share: 0..1.
+    """
+    # Opposite faces share a direction: fold onto the half space where the largest component is positive.
+    largest = np.take_along_axis(normals, np.abs(normals).argmax(axis=1)[:, None], axis=1)
+    folded = normals * np.sign(largest)
+    _, cell = np.unique(np.round(folded / _SAME_DIRECTION).astype(np.int64), axis=0, return_inverse=True)
+    weights = np.bincount(cell.reshape(-1), areas)
+    found = [np.array([0.0, 0.0, 1.0])]
+    for fullest in np.argsort(-weights, kind="stable")[: int(2 / share)]:
+        seed = folded[np.flatnonzero(cell.reshape(-1) == fullest)[0]]
+        near = folded @ seed >= np.cos(_SAME_DIRECTION)
+        if areas[near].sum() >= share * areas.sum():
+            mean = areas[near] @ folded[near]
+            found.append(_clean(mean / np.linalg.norm(mean)))
+    return np.array(found)
+
+
+def _clean(direction: FloatArray) -> FloatArray:
+    """Exactly along a coordinate axis when a quarter of a degree from it: faces are seldom truer than that."""
+    axis = np.where(np.abs(direction) < np.sin(_SAME_DIRECTION / 2), 0.0, direction)
+    return np.asarray(axis / np.linalg.norm(axis))
+
+
+@hookimpl
+def register_modifiers(register: Register) -> None:
+    """Register `snap`."""
+    register(Snap)

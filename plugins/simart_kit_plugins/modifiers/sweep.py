@@ -1,0 +1,96 @@
+"""Modifier `sweep`: move every joint through its range; stop the range where surfaces meet, flag what is stuck."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from pydantic import Field
+
+import simart_kit
+from simart_kit import Modifier, hookimpl
+
+if TYPE_CHECKING:
+    from simart_kit import Asset, Joint
+    from simart_kit.arrays import FloatArray
+    from simart_kit.hookspecs import Register
+
+
+class Sweep(Modifier):
+    """Shortens limits to what is free. A joint that is stuck keeps its limits and is flagged."""
+
+    name = "sweep"
+
+    class Options(simart_kit.Options):
+        """How finely to look."""
+
+        steps: int = Field(default=30, ge=2, le=720, description="Stops on the way to each limit.")
+        least: float = Field(
+            default=0.25, ge=0, le=1, description="Share of the wanted travel below which a joint counts as stuck."
+        )
+
+    options: Options
+
+    def modify(self, asset: Asset) -> Asset:
+        """The asset with limits that surfaces allow; notes tell each change, warnings each stuck joint."""
+        changed: dict[str, Joint] = {}
+        shortened, stuck = [], []
+        for joint in asset.joints:
+            if joint.limits is None:
+                continue
+            lower, upper = self._free(asset, joint)
+            wanted = joint.limits.upper - joint.limits.lower
+            if upper - lower < self.options.least * wanted:
+                flag = f"sweep: blocked after {_amount(joint, max(upper, -lower))}"
+                changed[joint.name] = replace(joint, flags=(*joint.flags, flag))
+                stuck.append(f"{joint.name} is {flag.removeprefix('sweep: ')}: limits kept, look at it")
+            elif (lower, upper) != (joint.limits.lower, joint.limits.upper):
+                changed[joint.name] = replace(joint, limits=simart_kit.Limits(lower, upper))
+                shortened.append(
+                    f"{joint.name}: {_amount(joint, joint.limits.lower)} .. {_amount(joint, joint.limits.upper)}"
+                    f" shortened to {_amount(joint, lower)} .. {_amount(joint, upper)}"
+                )
+        return (
+            asset.with_joints(changed).with_notes("sweep", "info", shortened).with_notes("sweep", "warning", stuck)
+        )
+
+    def _free(self, asset: Asset, joint: Joint) -> tuple[float, float]:
+        """Free range within the joint's limits [rad | m]."""
+        from simart_kit.sweeping import Sweep as Paths
+
+        moving = np.isin(asset.face_part, [asset.part_index(name) for name in carried(asset, joint.child)])
+        triangles = asset.mesh.triangles
+        paths = Paths(triangles[moving], triangles[~moving], self.seed)
+
+        def motion(position: float) -> FloatArray:
+            from simart_kit.kinematics import joint_motion
+
+            matrix, origin = joint_motion(joint, position), np.array(joint.origin)
+            matrix[:3, 3] += origin - matrix[:3, :3] @ origin
+            return matrix
+
+        assert joint.limits is not None
+        ends = [paths.free(motion, end, self.options.steps) if end else 0.0
+                for end in (joint.limits.lower, joint.limits.upper)]
+        return ends[0], ends[1]
+
+
+def carried(asset: Asset, part: str) -> set[str]:
+    """A part and all that it carries."""
+    found = {part}
+    while True:
+        more = {j.child for j in asset.joints if j.parent in found} - found
+        if not more:
+            return found
+        found |= more
+
+
+def _amount(joint: Joint, position: float) -> str:
+    return f"{np.degrees(position):.0f} degrees" if joint.turns else f"{position:.3f} m"
+
+
+@hookimpl
+def register_modifiers(register: Register) -> None:
+    """Register `sweep`."""
+    register(Sweep)

@@ -1,0 +1,150 @@
+"""How far something moves before its surface passes through another: paths of surface points, cast as rays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from .arrays import FloatArray, IntArray
+from .normals import weld
+from .rays import Rays
+
+Motion = Callable[[float], FloatArray]
+"""Position [rad | m] -> (4, 4) motion of the moving surface from where it rests."""
+
+POINTS = 600  # sampled on either surface
+BLOCKED = 0.03  # share of points that may pass through before the motion counts as blocked: modelling slop
+_DEEP = 0.003  # of the moving part's size: shallower crossings are surfaces that graze
+
+
+class Sweep:
+    """A moving surface and what stays.
+
+    Args:
+        moving: (F, 3, 3) triangles at rest.
+        still: (G, 3, 3) triangles.
+        seed: of the sampling.
+    """
+
+    def __init__(self, moving: FloatArray, still: FloatArray, seed: int = 0) -> None:
+        rng = np.random.default_rng(seed)
+        reach = float(np.linalg.norm(np.ptp(moving.reshape(-1, 3), axis=0)))
+        lower, upper = moving.min(axis=(0, 1)) - reach, moving.max(axis=(0, 1)) + reach
+        near = ((still.max(axis=1) >= lower) & (still.min(axis=1) <= upper)).all(axis=1)
+        still = still[near]
+        self._deep = _DEEP * reach
+        self._still, self._moving = _Surface(still), _Surface(moving)
+        # What lies inside the other at rest, as hinge knuckles and sloppy models do, only leaves it: not counted.
+        self._points = self._still.outside(sample_surface(moving, POINTS, rng))
+        self._others = self._moving.outside(sample_surface(still, POINTS, rng))
+
+    def blocked(self, motion: Motion, stops: FloatArray) -> FloatArray:
+        """(K,) share of points that have passed through the other surface on the way to each stop.
+
+        Args:
+            motion: the movement.
+            stops: (K,) positions away from 0, in order [rad | m].
+        """
+        mine = _Paths(self._still, self._points, self._deep)
+        others = _Paths(self._moving, self._others, self._deep)
+        shares = np.zeros(len(stops))
+        for step, stop in enumerate(stops):
+            posed = motion(float(stop))
+            # Seen from the moving surface, the still points move the other way.
+            most = max(mine.advance(posed), others.advance(np.linalg.inv(posed)))
+            shares[step] = most / max(len(self._points), 1)
+        return shares
+
+    def free(self, motion: Motion, limit: float, steps: int = 30) -> float:
+        """Farthest free position between 0 and `limit`, in whole steps [rad | m]."""
+        stops = limit * np.arange(1, steps + 1) / steps
+        clear = self.blocked(motion, stops) <= BLOCKED
+        if clear.all():
+            return limit
+        count = int(clear.argmin())
+        return float(stops[count - 1]) if count else 0.0
+
+
+class _Surface:
+    """Triangles to run into, and the connected piece of each."""
+
+    def __init__(self, triangles: FloatArray) -> None:
+        self.rays = Rays(triangles)
+        cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+        self.normals = cross / np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), 1e-30)
+        self._piece = _pieces(triangles)
+
+    def outside(self, points: FloatArray) -> FloatArray:
+        """The points that are not enclosed by one connected piece on all six sides."""
+        met = np.zeros((6, len(points)), dtype=np.int64)
+        for row, direction in enumerate(np.concatenate([np.eye(3), -np.eye(3)])):
+            # A little off the axis: rays along a wall's plane would slip through its edge.
+            faces, _ = self.rays.first(points, direction + 0.01 * np.array([0.3, -0.5, 0.7]))
+            met[row] = np.where(faces >= 0, self._piece[faces] if len(self._piece) else -1, -1)
+        enclosed = (met == met[0]).all(axis=0) & (met[0] >= 0)
+        return points[~enclosed]
+
+
+class _Paths:
+    """Points on their way, and which of them have gone deep through a surface."""
+
+    def __init__(self, target: _Surface, points: FloatArray, deep: float) -> None:
+        self._target, self._points, self._deep = target, points, deep
+        self._now = points
+        self._crossed = np.zeros(len(points), dtype=bool)
+        self._passed = np.zeros(len(points), dtype=bool)
+        self._hit = np.zeros_like(points)
+        self._normal = np.zeros_like(points)
+
+    def advance(self, pose: FloatArray) -> int:
+        """Move to a (4, 4) pose; returns how many points have passed through so far."""
+        if not len(self._points):
+            return 0
+        start, self._now = self._now, move(pose, self._points)
+        way = self._now - start
+        # A point that touches at rest starts a little way off the surface.
+        length = np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-30)
+        start = start + way * np.minimum(0.03 * self._deep / length, 0.5)
+        faces, distance = self._target.rays.first(start, self._now - start)
+        new = (distance <= 1.0) & ~self._crossed
+        self._hit[new] = (start + (self._now - start) * np.where(new, distance, 0.0)[:, None])[new]
+        self._normal[new] = self._target.normals[faces[new]]
+        self._crossed |= new
+        depth = np.abs(np.einsum("ij,ij->i", self._now - self._hit, self._normal))
+        self._passed |= self._crossed & (depth > self._deep)
+        return int(self._passed.sum())
+
+
+def sample_surface(triangles: FloatArray, count: int, rng: np.random.Generator) -> FloatArray:
+    """(N, 3) points spread over triangles by area, N = count, or 0 where there is no surface."""
+    edges = triangles[:, 1:] - triangles[:, :1]
+    areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
+    if not areas.sum() > 0:
+        return np.zeros((0, 3))
+    # Evenly spaced in cumulated area: no large face is missed by chance.
+    places = (np.arange(count) + rng.random(count)) / count
+    chosen = np.searchsorted(np.cumsum(areas) / areas.sum(), places).clip(max=len(areas) - 1)
+    u, v = rng.random((2, count, 1))
+    folded = u + v > 1
+    u, v = np.where(folded, 1 - u, u), np.where(folded, 1 - v, v)
+    return np.asarray(triangles[chosen, 0] + u * edges[chosen, 0] + v * edges[chosen, 1])
+
+
+def move(matrix: FloatArray, points: FloatArray) -> FloatArray:
+    """(N, 3) points moved by a (4, 4) transform."""
+    return np.asarray(points @ matrix[:3, :3].T + matrix[:3, 3])
+
+
+def _pieces(triangles: FloatArray) -> IntArray:
+    """(F,) connected piece of each triangle."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    if not len(triangles):
+        return np.zeros(0, dtype=np.int64)
+    corners = triangles.reshape(-1, 3)
+    a, b, c = weld(corners, float(np.ptp(corners, axis=0).max()) * 1e-5).reshape(-1, 3).T
+    count = int(max(a.max(), b.max(), c.max())) + 1
+    links = coo_array((np.ones(2 * len(a)), (np.r_[a, b], np.r_[b, c])), shape=(count, count))
+    return np.asarray(connected_components(links, directed=False)[1][a], dtype=np.int64)
