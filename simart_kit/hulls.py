@@ -1,0 +1,99 @@
+"""Convex hulls of points that may be flat, few or many."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .arrays import FloatArray
+from .asset import ConvexMesh
+
+MIN_THICKNESS = 0.002  # [m] of the hull of something flat
+_MANY_POINTS, _MANY_DIRECTIONS = 20_000, 1024
+_CHUNK = 4_000_000  # products held in memory at once
+_GOLDEN_ANGLE = np.pi * (3.0 - np.sqrt(5.0))
+
+
+def hull_of(points: FloatArray) -> ConvexMesh | None:
+    """The convex hull of (N, 3) points with outward triangles; None when they lie in a plane.
+
+    Of very many points only the farthest in some hundred directions are asked: round shapes lose a percent.
+    """
+    from scipy.spatial import ConvexHull, QhullError
+
+    if len(points) > _MANY_POINTS:
+        points = points[_farthest(points, _MANY_DIRECTIONS)]
+    try:
+        hull = ConvexHull(points)
+    except QhullError:
+        return None
+    used, corners = np.unique(hull.simplices, return_inverse=True)
+    corners = corners.reshape(-1, 3)
+    vertices = np.asarray(points, dtype=np.float64)[used]
+    a, b, c = (vertices[corners[:, i]] for i in range(3))
+    inward = np.einsum("ni,ni->n", np.cross(b - a, c - a), hull.equations[:, :3]) < 0
+    return ConvexMesh(vertices, np.where(inward[:, None], corners[:, ::-1], corners))
+
+
+def convex_hull(points: FloatArray, max_vertices: int = 64, thickness: float = MIN_THICKNESS) -> ConvexMesh:
+    """A convex shape around (N, 3) points, for simulators.
+
+    Args:
+        points: [m]; may lie in a plane, on a line or in one place.
+        max_vertices: rounder hulls keep only their farthest vertices in as many fixed directions; at least 8.
+        thickness: extent that it has at least in every direction [m].
+    """
+    hull = hull_of(_thickened(points, thickness))
+    assert hull is not None  # thick in three directions
+    if len(hull.vertices) <= max_vertices:
+        return hull
+    fewer = hull_of(_thickened(hull.vertices[_farthest(hull.vertices, max_vertices)], thickness))
+    assert fewer is not None
+    return fewer
+
+
+def bounding_box(points: FloatArray, thickness: float = MIN_THICKNESS) -> ConvexMesh:
+    """The box around (N, 3) points along the axes, `thickness` [m] or more in each."""
+    lower, upper = points.min(axis=0), points.max(axis=0)
+    grow = np.maximum(thickness - (upper - lower), 0) / 2
+    corner = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+    hull = hull_of(np.where(corner, upper + grow, lower - grow))
+    assert hull is not None
+    return hull
+
+
+def volume(shape: ConvexMesh) -> float:
+    """Signed volume inside outward triangles [m^3]."""
+    a, b, c = (shape.vertices[shape.faces[:, i]] - shape.vertices.mean(axis=0) for i in range(3))
+    return float(np.einsum("ni,ni->", a, np.cross(b, c)) / 6)
+
+
+def shrunk(shape: ConvexMesh, margin: float) -> ConvexMesh:
+    """The shape squeezed so that its bounding box loses `margin` [m] on every side, half its size at most."""
+    lower, upper = shape.vertices.min(axis=0), shape.vertices.max(axis=0)
+    factor = 1 - np.minimum(2 * margin / (upper - lower), 0.5)
+    middle = (lower + upper) / 2
+    return ConvexMesh(middle + (shape.vertices - middle) * factor, shape.faces)
+
+
+def _farthest(points: FloatArray, count: int) -> list[int]:
+    """Indices of the farthest points along the six axes and over a Fibonacci sphere, `count` at most."""
+    step = np.arange(count - 6) + 0.5
+    z = 1 - 2 * step / (count - 6)
+    ring = np.sqrt(1 - z**2)
+    turn = _GOLDEN_ANGLE * step
+    sphere = np.column_stack([ring * np.cos(turn), ring * np.sin(turn), z])
+    directions = np.concatenate([np.eye(3), -np.eye(3), sphere])
+    chunks = np.array_split(directions, max(1, len(points) * count // _CHUNK))
+    return sorted({i for chunk in chunks for i in (chunk @ points.T).argmax(axis=1).tolist()})
+
+
+def _thickened(points: FloatArray, thickness: float) -> FloatArray:
+    """The points, doubled apart along those of their principal axes in which they are thinner."""
+    middle = points.mean(axis=0)
+    axes = np.linalg.eigh(np.cov(points - middle, rowvar=False, bias=True))[1].T
+    for axis in axes:
+        lacking = thickness - float(np.ptp(points @ axis))
+        if lacking > 0:
+            offset = axis * (lacking / 2)
+            points = np.concatenate([points - offset, points + offset])
+    return points

@@ -1,0 +1,181 @@
+"""A surface as shells: connected pieces, each known to be closed or open.
+
+A piece is closed when its boundary vanishes: every edge is walked as often one way as the other. That is what
+the divergence theorem needs, and it holds for surfaces that touch themselves, too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .arrays import BoolArray, FloatArray, IntArray
+from .normals import weld
+
+WELD_TOLERANCE = 1e-6, 1e-12  # of the diagonal, and [m] at least
+_FLAT = 1e-7  # volume / area^1.5 of a closed piece that encloses nothing, such as the two sides of a sheet
+
+
+@dataclass(frozen=True, eq=False)
+class Shells:
+    """A surface cut into pieces, for analysis: coincident vertices are one, repeated faces are left out.
+
+    Attributes:
+        vertices: (V, 3) [m].
+        faces: (F, 3) vertex indices; wound consistently within a closed shell.
+        face_shell: (F,) shell of each triangle, 0..S-1.
+        closed: (S,) whether the shell bounds a volume.
+    """
+
+    vertices: FloatArray
+    faces: IntArray
+    face_shell: IntArray
+    closed: BoolArray
+
+    @property
+    def triangles(self) -> FloatArray:
+        """(F, 3, 3) corner positions [m]."""
+        return np.asarray(self.vertices[self.faces])
+
+    @property
+    def count(self) -> int:
+        """Number of shells."""
+        return len(self.closed)
+
+    @property
+    def areas(self) -> FloatArray:
+        """(S,) area of each shell [m^2]."""
+        return np.asarray(np.bincount(self.face_shell, _areas(self.triangles), self.count))
+
+    def split(self) -> list[IntArray]:
+        """Indices of the faces of each shell."""
+        order = np.argsort(self.face_shell, kind="stable")
+        return np.split(order, np.cumsum(np.bincount(self.face_shell, minlength=self.count))[:-1])
+
+    def points(self) -> list[FloatArray]:
+        """(N, 3) vertices of each shell [m]."""
+        pairs = np.unique(self.face_shell[:, None].astype(np.int64) * len(self.vertices) + self.faces)
+        shell, vertex = np.divmod(pairs, max(len(self.vertices), 1))
+        return np.split(self.vertices[vertex], np.searchsorted(shell, np.arange(1, self.count)))
+
+
+def find_shells(vertices: FloatArray, faces: IntArray) -> Shells:
+    """Cut the surface of (F, 3) faces into shells.
+
+    First pieces that hang together by edges with exactly two faces: boards that only touch stay apart, and
+    faces that are wound against their neighbours are turned. What is not closed by itself is put together
+    again by shared vertices, since solids that share a wall are closed only together.
+    """
+    points, corners = _welded(vertices, faces)
+    edge, way = _edges(corners)
+    sheet, flip = _sheets(edge, way)
+    corners = np.where(flip[:, None], corners[:, ::-1], corners)
+    way = np.where(flip[:, None], -way, way)
+    alone = (_closed(edge, way, sheet) & _bounding(points[corners], sheet))[sheet]
+    rest = np.flatnonzero(~alone)
+    group = _touching(corners[rest])
+    together = (_closed(edge[rest], way[rest], group) & _bounding(points[corners[rest]], group))[group]
+    sides = np.flatnonzero(~together)
+    once = sides[_first_of_each(np.sort(corners[rest[sides]], axis=1))]  # a sheet with two sides is one
+    kept = np.sort(np.r_[np.flatnonzero(together), once])
+    label = np.r_[sheet[alone], sheet.max(initial=-1) + 1 + group[kept]]
+    _, shell = np.unique(label, return_inverse=True)
+    closed = np.zeros(int(shell.max(initial=-1)) + 1, dtype=bool)
+    closed[shell] = np.r_[alone[alone], together[kept]]
+    faces = corners[np.r_[np.flatnonzero(alone), rest[kept]]]
+    return Shells(points, faces, shell.astype(np.int32), closed)
+
+
+def _welded(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
+    """Points and (F, 3) faces on them, without degenerate faces and those that repeat an earlier one."""
+    used, compact = np.unique(faces, return_inverse=True)
+    points = vertices[used]
+    relative, least = WELD_TOLERANCE
+    ids = weld(points, max(relative * float(np.linalg.norm(np.ptp(points, axis=0))), least))
+    _, first = np.unique(ids, return_index=True)
+    corners = ids[compact.reshape(-1, 3)]
+    a, b, c = corners.T
+    corners = corners[(a != b) & (b != c) & (c != a)]
+    turn = corners.argmin(axis=1)
+    same = np.take_along_axis(corners, (turn[:, None] + np.arange(3)) % 3, axis=1)
+    return points[first], corners[_first_of_each(same)]
+
+
+def _areas(triangles: FloatArray) -> FloatArray:
+    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    return np.asarray(np.linalg.norm(cross, axis=1) / 2)
+
+
+def _first_of_each(rows: IntArray) -> IntArray:
+    """Indices of the first of equal (N, 3) rows, ascending."""
+    pair = _pair_keys(rows[:, 0], rows[:, 1])
+    return np.sort(np.unique(_pair_keys(pair, rows[:, 2]), return_index=True)[1])
+
+
+def _pair_keys(a: IntArray, b: IntArray) -> IntArray:
+    """(N,) ids 0.. that are equal where both `a` and `b` are."""
+    base = int(b.max(initial=0)) + 1
+    return np.asarray(np.unique(a.astype(np.int64) * base + b, return_inverse=True)[1].reshape(-1))
+
+
+def _edges(corners: IntArray) -> tuple[IntArray, IntArray]:
+    """(F, 3) ids of the faces' edges, and the way (+1 or -1) in which the face walks each."""
+    start, end = corners, corners[:, [1, 2, 0]]
+    edge = _pair_keys(np.minimum(start, end).ravel(), np.maximum(start, end).ravel())
+    return edge.reshape(-1, 3), np.where(start < end, 1, -1)
+
+
+def _sheets(edge: IntArray, way: IntArray) -> tuple[IntArray, BoolArray]:
+    """(F,) label of faces joined by edges with exactly two faces, and which to turn so that they agree.
+
+    Every face stands twice in a graph, as it is and turned; an edge joins the copies that agree. In an
+    orientable sheet the two copies of a face end up in different components, and one of those is chosen:
+    the one that turns fewer faces.
+    """
+    count = len(edge)
+    order = np.argsort(edge, axis=None, kind="stable")
+    uses = np.bincount(edge.ravel())
+    starts = (np.cumsum(uses) - uses)[uses == 2]
+    one, two = order[starts], order[starts + 1]
+    against = np.where(way.ravel()[one] == way.ravel()[two], count, 0)
+    one, two = one // 3, two // 3
+    cover = _components(2 * count, np.r_[one, one + count], np.r_[two + against, two + count - against])
+    as_is, turned = cover[:count], cover[count:]
+    sheet = np.unique(np.minimum(as_is, turned), return_inverse=True)[1].reshape(-1)
+    flip = as_is > turned
+    mostly = 2 * np.bincount(sheet, flip) > np.bincount(sheet)
+    return sheet, np.asarray((flip ^ mostly[sheet]) & (as_is != turned))
+
+
+def _touching(corners: IntArray) -> IntArray:
+    """(F,) label of faces joined by shared vertices."""
+    face = np.repeat(np.arange(len(corners)), 3)
+    _, vertex = np.unique(corners.ravel(), return_inverse=True)
+    count = len(corners) + int(vertex.max(initial=-1)) + 1
+    labels = _components(count, face, len(corners) + vertex)[: len(corners)]
+    return np.unique(labels, return_inverse=True)[1].reshape(-1)
+
+
+def _components(count: int, one: IntArray, two: IntArray) -> IntArray:
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    links = coo_array((np.ones(len(one), dtype=np.int8), (one, two)), shape=(count, count))
+    return np.asarray(connected_components(links, directed=False)[1], dtype=np.int64)
+
+
+def _closed(edge: IntArray, way: IntArray, label: IntArray) -> BoolArray:
+    """(S,) whether the (F, 3) edges of a label's faces are walked as often one way as the other."""
+    face_edge = _pair_keys(np.repeat(label, 3), edge.ravel())
+    unbalanced = np.bincount(face_edge, way.ravel()) != 0
+    count = int(label.max(initial=-1)) + 1
+    return np.asarray(np.bincount(np.repeat(label, 3), unbalanced[face_edge], count) == 0)
+
+
+def _bounding(triangles: FloatArray, label: IntArray) -> BoolArray:
+    """(S,) whether the (F, 3, 3) triangles of a label enclose anything, if they are closed."""
+    volumes = np.einsum("ni,ni->n", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6
+    count = int(label.max(initial=-1)) + 1
+    area = np.bincount(label, _areas(triangles), count)
+    return np.asarray(np.abs(np.bincount(label, volumes, count)) > _FLAT * area**1.5)
