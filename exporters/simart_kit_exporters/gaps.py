@@ -1,0 +1,46 @@
+"""What OBJ-based formats cannot show, and the sentences that say so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from simart_kit.asset import Joint
+from simart_kit.bake import loses_colors
+from simart_kit.surfaces import Surface
+
+from .sheets import backed, is_speck
+
+
+def rigid(joint: Joint) -> bool:
+    """Whether a joint cannot move: fixed, or without travel, which loaders refuse as a range."""
+    return joint.kind == "fixed" or (joint.limits is not None and joint.limits.lower == joint.limits.upper)
+
+
+def joined(found: Iterable[tuple[str, Sequence[str]]]) -> tuple[str, ...]:
+    """A sentence for each text that has names."""
+    return tuple(f"{text}: {', '.join(names)}" for text, names in found if names)
+
+
+def look_gaps(groups: Mapping[str, Sequence[Surface]]) -> tuple[str, ...]:
+    """A sentence for each way in which what is drawn differs from the surfaces of an asset, by part."""
+    maps = {
+        part: any(s.material.normal_image or s.material.metallic_roughness_image for s in surfaces)
+        for part, surfaces in groups.items()
+    }
+    return joined(
+        (
+            (
+                "vertex colours beside a texture are left out",
+                [n for n, g in groups.items() if any(map(loses_colors, g))],
+            ),
+            ("normal, metallic and roughness textures are left out", [n for n, has in maps.items() if has]),
+            (
+                "a surface smaller than a speck is left out",
+                [n for n, g in groups.items() if any(map(is_speck, g))],
+            ),
+            (
+                "a flat surface is given a back, for simulators refuse meshes without volume",
+                [n for n, g in groups.items() if any(not is_speck(s) and backed(s) is not s for s in g)],
+            ),
+        )
+    )
