@@ -69,7 +69,7 @@ def cabinet_mesh(textured: bool = True) -> Mesh:
 
 
 def cabinet_asset(textured: bool = True, physics: bool = True) -> Asset:
-    """The cabinet with a revolute door (opens to -90 degrees about +z) and a prismatic drawer (0.3 m along -y).
+    """The cabinet with a revolute door (opens by 1.5 rad about -z) and a prismatic drawer (0.3 m along -y).
 
     With `physics`, each part has the mass of its boxes at 600 kg/m^3 and one collision box a box.
     """
@@ -123,7 +123,9 @@ def chain_asset() -> Asset:
 def static_asset() -> Asset:
     """One box that nothing moves."""
     bounds = [((0.0, 0.0, 0.0), (0.4, 0.3, 0.5))]
-    return Asset("block", boxes_mesh(bounds, textured=True), np.zeros(12), (_part("body", bounds, True),))
+    return Asset(
+        "block", boxes_mesh(bounds, textured=True), np.zeros(12, np.int32), (_part("body", bounds, True),)
+    )
 
 
 def _part(name: str, bounds: Sequence[tuple[Vec3, Vec3]], physics: bool) -> Part:
