@@ -46,7 +46,7 @@ def source_path(source: str | Path) -> Path:
 def read_source(
     path: Path, plugins: Plugins, up: UpAxis | None = None, unit: str | float | None = None
 ) -> Source:
-    """Read a mesh file and bring it to the canonical frame.
+    """Read a mesh file and bring it to the canonical frame; normals are computed where the file has none.
 
     Raises:
         BadInputError: nobody reads this format, the file is broken, or its size makes no sense.

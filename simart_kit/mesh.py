@@ -145,7 +145,7 @@ class Mesh:
         ):
             values = getattr(self, name)
             if values is not None:
-                set_field(self, name, freeze(values))  # type: ignore[operator]
+                set_field(self, name, freeze(values))
                 _check_shape(name, getattr(self, name).shape, (rows, columns) if columns else (rows,))
         if self.up not in get_args(UpAxis):
             raise BadInputError(f"up axis '{self.up}': use one of {', '.join(get_args(UpAxis))}")
