@@ -1,0 +1,86 @@
+"""Surfaces as rerun meshes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from simart_kit.arrays import ByteArray, FloatArray, IntArray
+from simart_kit.mesh import Image, Mesh
+
+from .colors import Color, srgb_factor
+
+
+def textured_mesh(mesh: Mesh, faces: IntArray, material: int, texels: int) -> Any:
+    """Some faces of one material as they look; the texture is shrunk to so many texels."""
+    look = mesh.materials[material]
+    image = look.base_color_image if mesh.uv is not None else None
+    used, corners = np.unique(mesh.faces[faces], return_inverse=True)
+    assert mesh.normals is not None
+    return mesh3d(
+        mesh.vertices[used],
+        corners,
+        mesh.normals[used],
+        colors=None if mesh.colors is None else mesh.colors[used],
+        uv=None if mesh.uv is None or image is None else mesh.uv[used],
+        texture=None if image is None else _texture(image, texels),
+        factor=srgb_factor(look.base_color),
+    )
+
+
+def plain_mesh(mesh: Mesh, faces: IntArray, color: Color) -> Any:
+    """Some faces in one colour."""
+    used, corners = np.unique(mesh.faces[faces], return_inverse=True)
+    assert mesh.normals is not None
+    return mesh3d(mesh.vertices[used], corners, mesh.normals[used], factor=color)
+
+
+def mesh3d(
+    vertices: FloatArray,
+    faces: IntArray,
+    normals: FloatArray,
+    *,
+    colors: ByteArray | None = None,
+    uv: FloatArray | None = None,
+    texture: ByteArray | None = None,
+    factor: Color | None = None,
+) -> Any:
+    """A Mesh3D of (V, 3) vertices [m], (F, 3) faces and (V, 3) normals, with any of the looks."""
+    import rerun as rr
+
+    return rr.Mesh3D(
+        vertex_positions=vertices.astype(np.float32),
+        triangle_indices=faces.reshape(-1, 3).astype(np.uint32),
+        vertex_normals=normals.astype(np.float32),
+        vertex_colors=colors,
+        # rerun's textures begin at the top, as in glTF; ours at the bottom.
+        vertex_texcoords=None if uv is None else (uv * [1.0, -1.0] + [0.0, 1.0]).astype(np.float32),
+        albedo_texture=texture,
+        albedo_factor=factor,
+    )
+
+
+def _texture(image: Image, texels: int) -> ByteArray:
+    """(H, W, 3) pixels, shrunk to at most so many."""
+    from PIL import Image as Pillow
+
+    pixels = image.pixels[:, :, :3]
+    shrink = (texels / (pixels.shape[0] * pixels.shape[1])) ** 0.5
+    if shrink >= 1.0:
+        return np.ascontiguousarray(pixels)
+    size = (max(int(pixels.shape[1] * shrink), 1), max(int(pixels.shape[0] * shrink), 1))
+    return np.asarray(Pillow.fromarray(pixels).resize(size, Pillow.Resampling.BOX))
+
+
+def convex_edges(vertices: FloatArray, faces: IntArray) -> IntArray:
+    """(E, 2) edges of a convex mesh that lie between faces of different direction."""
+    normals = Mesh(vertices, faces).face_normals
+    ends = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    owner = np.tile(np.arange(len(faces)), 3)
+    order = np.lexsort((ends[:, 1], ends[:, 0]))
+    ends, owner = ends[order], owner[order]
+    pair = np.flatnonzero((ends[1:] == ends[:-1]).all(axis=1))
+    flat = np.einsum("ij,ij->i", normals[owner[pair]], normals[owner[pair + 1]]) > 0.9999
+    dropped = np.concatenate([pair + 1, pair[flat]])
+    return np.asarray(np.delete(ends, dropped, axis=0))
