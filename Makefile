@@ -1,0 +1,75 @@
+# simart-kit. `make` lists what there is; every target makes the environment that it needs.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip install --quiet --constraint constraints.txt
+# Stamps: an environment is made again only when what it depends on has changed.
+APP := $(VENV)/app.stamp
+DEV := $(VENV)/dev.stamp
+DOCS := README.md $(wildcard docs/*.md)
+# Help texts in the docs do not depend on the width of a terminal.
+COG := COLUMNS=80 $(BIN)/cog
+SCHEMA := $(BIN)/python -c 'from simart_kit import asset_schema, describe; \
+	print(describe.schema_text(asset_schema.AssetTable), end="")'
+WHEEL := build/wheel
+
+.PHONY: help demo test check lint types docs docs-check fmt wheel bench clean
+.DEFAULT_GOAL := help
+
+help:  ## List the targets.
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+demo: $(APP)  ## Convert the example cabinet to URDF, MJCF and USD.
+	$(BIN)/simart-kit convert examples/cabinet.glb --out out/cabinet
+
+test: $(DEV)  ## Run the tests and report what they cover of the core.
+	$(BIN)/coverage run -m pytest
+	$(BIN)/coverage report
+
+check: lint types test docs-check  ## All of lint, types, test and docs-check.
+
+lint: $(DEV)  ## Check style and format.
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(DEV)  ## Check types.
+	$(BIN)/mypy
+
+docs: $(DEV)  ## Write the generated tables of the documentation.
+	$(COG) -r $(DOCS)
+	$(SCHEMA) > docs/asset.schema.json
+
+docs-check: $(DEV)  ## Check that the generated tables are current.
+	$(COG) --check $(DOCS)
+	$(SCHEMA) | diff docs/asset.schema.json -
+
+fmt: $(DEV)  ## Format the code and fix what can be fixed.
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+wheel: $(DEV)  ## Build a wheel from the sdist and run the tests against it in a fresh environment.
+	rm -rf dist $(WHEEL)
+	$(BIN)/python -m build --no-isolation
+	$(BIN)/check-wheel-contents dist/*.whl
+	$(PYTHON) -m venv $(WHEEL)/venv
+	$(WHEEL)/venv/bin/python -m pip install --quiet --constraint constraints.txt "$$(echo dist/*.whl)[test]"
+	cp -r tests docs examples README.md pyproject.toml $(WHEEL)
+	cd $(WHEEL) && venv/bin/pytest
+
+bench: $(APP)  ## Time a conversion of 2 thousand and of 200 thousand faces, a line a stage.
+	$(BIN)/python tests/bench.py
+
+clean:  ## Remove what was built, but not the environment.
+	rm -rf build dist out .coverage .mypy_cache .ruff_cache .pytest_cache
+
+$(BIN)/python:
+	$(PYTHON) -m venv $(VENV)
+
+$(APP): pyproject.toml constraints.txt | $(BIN)/python
+	$(PIP) --editable .
+	@touch $@
+
+$(DEV): pyproject.toml constraints.txt | $(BIN)/python
+	$(PIP) --editable '.[dev]'
+	@touch $@

@@ -1,0 +1,68 @@
+"""The entry point: runs one command line and turns whatever happens into an exit code."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+
+import typer
+from typer.main import get_command
+
+from ..errors import SimartKitError
+from .app import app
+from .options import Flags
+
+FAILED, USAGE, INTERRUPTED, READER_GONE = 1, 2, 130, 141
+
+
+def main() -> None:
+    """Run the process's command line and exit."""
+    sys.exit(run(sys.argv[1:]))
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run a command line; returns the exit code."""
+    flags = Flags()
+    try:
+        try:
+            return _run(arguments, flags)
+        finally:
+            sys.stdout.flush()
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:
+        # Python flushes stdout once more when it exits, and would complain then.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return READER_GONE
+
+
+def _run(arguments: Sequence[str], flags: Flags) -> int:
+    try:
+        with get_command(app).make_context("simart-kit", list(arguments), obj=flags) as context:
+            context.command.invoke(context)
+    except typer.Exit as end:
+        return end.exit_code
+    except typer.TyperException as error:
+        return _told(error.format_message(), USAGE, Flags(json=flags.json))
+    except SimartKitError as error:
+        return _told(str(error), error.exit_code, flags)
+    except BrokenPipeError:
+        raise
+    except Exception as error:
+        advice = "" if flags.verbose else "; run with -v for the traceback, and please report it"
+        return _told(f"unexpected {type(error).__name__}: {error}{advice}", FAILED, flags)
+    return 0
+
+
+def _told(message: str, code: int, flags: Flags) -> int:
+    line = " ".join(message.split())
+    if flags.verbose:
+        traceback.print_exc(file=sys.stderr)
+    print(f"error: {line}", file=sys.stderr)
+    if flags.json:
+        print(json.dumps({"ok": False, "error": line, "exit_code": code}))
+    return code

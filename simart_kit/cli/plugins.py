@@ -1,0 +1,104 @@
+"""`simart-kit plugins list | show`."""
+
+from __future__ import annotations
+
+import inspect
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from .common import print_json, print_rows, stdout_kept
+from .options import Json, PluginFiles, Verbose
+
+if TYPE_CHECKING:
+    from ..plugins import Plugins, Registration
+
+app = typer.Typer(help="List and show plugins.", rich_markup_mode=None)
+
+
+@app.command("list")
+def list_plugins(
+    plugin: PluginFiles = None,
+    json: Json = False,
+    check: Annotated[
+        bool, typer.Option("--check", help="Exit code 1 if a plugin failed to load or a name is taken twice.")
+    ] = False,
+    verbose: Verbose = False,
+) -> None:
+    """Every stage, loader and observer with the plugin it comes from, and what did not load."""
+    from ..plugins import Plugins
+
+    with stdout_kept(json):
+        plugins = Plugins(files=plugin or ())
+    if json:
+        print_json(_document(plugins))
+    else:
+        _print(plugins, verbose)
+    if check and (plugins.failures or plugins.conflicts()):
+        raise typer.Exit(1)
+
+
+@app.command()
+def show(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Name of a stage, such as usd.")],
+    plugin: PluginFiles = None,
+    json: Json = False,
+    verbose: Verbose = False,
+) -> None:
+    """What a stage does, and its options with type, default and meaning."""
+    from ..errors import UnknownPluginError
+    from ..plugins import Plugins
+
+    with stdout_kept(json):
+        plugins = Plugins(files=plugin or ())
+    stages = [r for r in plugins.registrations() if r.kind != "recipe"]
+    found = [r for r in stages if r.name == name]
+    if not found:
+        raise UnknownPluginError("stage", name, {r.name for r in stages}, map(str, plugins.failures))
+    if json:
+        print_json([_row(registration) | {"options": _options(registration)} for registration in found])
+        return
+    for registration in found:
+        print(f"{registration.kind} {registration.name}, from {registration.owner}\n")
+        print(inspect.getdoc(registration.value) or "", end="\n\n")
+        options = [tuple(row.values()) for row in _options(registration)]
+        print_rows(
+            [("option", "type", "default", "meaning"), *options] if options else [("no options",)], "  "
+        )
+
+
+def _print(plugins: Plugins, verbose: bool) -> None:
+    rows = [(r.kind, r.name, str(r.owner)) for r in plugins.registrations()]
+    rows += [
+        ("hooks", ", ".join(hooks), str(owner))
+        for owner, names in plugins.hooks()
+        if (hooks := [name for name in names if not name.startswith("register_")])
+    ]
+    print_rows(rows)
+    for group in plugins.conflicts():
+        owners = " and by ".join(str(r.owner) for r in group)
+        print(f"CONFLICT  {group[0].kind} '{group[0].name}' is registered by {owners}")
+    for failure in plugins.failures:
+        print(f"FAILED  {failure}")
+        if verbose:
+            print(failure.trace)
+
+
+def _document(plugins: Plugins) -> dict[str, Any]:
+    return {
+        "ok": not (plugins.failures or plugins.conflicts()),
+        "stages": [_row(r) for r in plugins.registrations()],
+        "hooks": [{**vars(owner), "hooks": list(names)} for owner, names in plugins.hooks()],
+        "failures": [{**vars(f.owner), "phase": f.phase, "error": f.error} for f in plugins.failures],
+        "conflicts": [[_row(r) for r in group] for group in plugins.conflicts()],
+    }
+
+
+def _row(registration: Registration) -> dict[str, str]:
+    return {"kind": registration.kind, "name": registration.name, **vars(registration.owner)}
+
+
+def _options(registration: Registration) -> list[dict[str, str]]:
+    from ..describe import field_rows
+
+    return [vars(row) for row in field_rows(registration.value.Options)]

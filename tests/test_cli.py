@@ -1,0 +1,444 @@
+"""The command line: what it prints, on which stream, and with which exit code."""
+
+import json
+import os
+import re
+import resource
+import signal
+import subprocess
+import sys
+import time
+from importlib.metadata import EntryPoint
+from io import StringIO
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from simart_kit.asset_io import save_asset
+from simart_kit.cli.main import run
+from simart_kit.cli.progress import Bar, steps
+from simart_kit.plugins import Plugins
+from simart_kit.recipe import load_recipe
+from simart_kit.testing.meshes import cabinet_asset
+
+FAKES = '''
+import os, time
+import numpy as np
+from pydantic import Field
+import simart_kit as sk
+from simart_kit.testing.meshes import cabinet_asset, cabinet_mesh
+
+class Labels(sk.Segmenter):
+    """Labels a cabinet.
+
+    Knows one cabinet only.
+    """
+    name = "labels"
+    class Options(sk.Options):
+        fault: str = Field(default="", description="What goes wrong.")
+    options: Options
+    def segment(self, mesh):
+        print("noise from python")
+        os.write(1, b"noise from native code\\n")
+        if self.options.fault == "hang":
+            time.sleep(60)
+        if self.options.fault == "raise":
+            raise RuntimeError("out of ideas")
+        if self.options.fault == "interrupt":
+            raise KeyboardInterrupt
+        names = ("body", "door", "drawer")
+        return sk.Segmentation(np.repeat([0, 1, 2], [60, 24, 24]), tuple(map(sk.PartGuess, names)))
+
+class Joints(sk.JointPredictor):
+    name = "joints"
+    def predict(self, mesh, segmentation):
+        return cabinet_asset().joints
+
+class Text(sk.Exporter):
+    name = "text"
+    def export(self, asset, directory):
+        (directory / "main.txt").write_text(str([j.limits for j in asset.joints]))
+        return directory / "main.txt"
+
+@sk.hookimpl
+def register_segmenters(register):
+    register(Labels)
+
+@sk.hookimpl
+def register_joint_predictors(register):
+    register(Joints)
+
+@sk.hookimpl
+def register_exporters(register):
+    register(Text)
+
+@sk.hookimpl
+def load_mesh(path):
+    return cabinet_mesh(textured=False) if path.suffix == ".fake" else None
+'''
+RECIPE = """
+schema = 1
+description = "for tests"
+modify = []
+[segmenter]
+use = "labels"
+[joints]
+use = "joints"
+[[export]]
+use = "text"
+"""
+
+
+@pytest.fixture
+def home(tmp_path, monkeypatch) -> Path:
+    """A working folder with a source, a recipe and a plugin file."""
+    # Real pictures take seconds and have their own tests.
+    monkeypatch.setattr("simart_kit.render.write_preview", lambda asset, path: path.write_bytes(b"picture"))
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "cupboard.fake").write_text("cabinet")
+    (tmp_path / "recipe.toml").write_text(RECIPE)
+    (tmp_path / "fakes.py").write_text(FAKES)
+    return tmp_path
+
+
+CONVERT = ["convert", "cupboard.fake", "--recipe", "recipe.toml", "--plugin", "fakes.py", "--no-record"]
+
+
+def process(*arguments: str, **options) -> subprocess.Popen:
+    # Start-up is measured as users meet it: with compiled modules kept.
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    command = [sys.executable, "-m", "simart_kit", *arguments]
+    return subprocess.Popen(
+        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options
+    )
+
+
+def test_convert_tells_what_was_found_and_where_it_is(home, capfd):
+    code = run(CONVERT)
+
+    out, err = capfd.readouterr()
+    assert code == 0
+    assert "cupboard: 3 parts, 2 joints: door (revolute), drawer (prismatic)" in out
+    assert re.search(r"door +revolute +-86 \.\. 0 deg on body", out)
+    assert re.search(r"drawer +prismatic +0\.000 \.\. 0\.300 m on body", out)
+    for check in ("collision", "joints", "mass"):
+        assert re.search(rf"^  (ok  |FAIL)  {check}: ", out, re.MULTILINE)
+    for word, path in (("text", "text/main.txt"), ("asset", "asset.json"), ("picture", "preview.png")):
+        assert re.search(rf"^  {word} +out/cupboard/{path}$", out, re.MULTILINE)
+        assert (home / "out" / "cupboard" / path).is_file()
+    assert re.search(r"^segment labels +\d+\.\d\d s$", err, re.MULTILINE)
+    assert [line.split("  ")[0] for line in err.splitlines()] == [
+        "load fake",
+        "segment labels",
+        "joints joints",
+        "check",
+        "preview",
+        "export text",
+    ]
+
+
+def test_convert_verbosely_tells_what_was_decided(home, capfd):
+    run(CONVERT)
+    assert "load: up is" not in capfd.readouterr().out
+
+    assert run([*CONVERT, "-v", "--up", "-y"]) == 0
+
+    assert re.search(r"^  load: up is -y \(--up\)", capfd.readouterr().out, re.MULTILINE)
+
+
+def test_convert_warns_of_an_installed_plugin_that_did_not_load(home, capfd, monkeypatch):
+    broken = EntryPoint("shaky", "module_that_nobody_has", "simart_kit")
+    monkeypatch.setattr("simart_kit.plugins._entry_points", lambda: [broken])
+
+    assert run(CONVERT) == 0
+    assert "warning: plugin shaky during import: ModuleNotFoundError" in capfd.readouterr().err
+
+
+def test_convert_quietly_says_nothing(home, capfd):
+    code = run([*CONVERT, "-q", "--out", "here", "--name", "My Cupboard!"])
+
+    out, err = capfd.readouterr()
+    assert (code, err) == (0, "")
+    assert sorted(out.splitlines()) == ["noise from native code", "noise from python"]
+    assert json.loads((home / "here" / "asset.json").read_text())["name"] == "my_cupboard"
+
+
+def test_json_is_one_document_on_stdout_whatever_plugins_print(home):
+    code, out, err = finish(process(*CONVERT, "--json"))
+
+    document = json.loads(out)
+    assert (code, document["ok"]) == (0, True)
+    assert {"noise from native code", "noise from python"} <= set(err.splitlines())
+    assert document["report"] == json.loads((home / "out" / "cupboard" / "report.json").read_text())
+    assert Path(document["files"]["text"]).is_file()
+    assert [row["stage"] for row in document["seconds"]][:3] == ["load", "segment", "joints"]
+
+
+def test_a_failed_json_run_is_one_document_too(home, capfd):
+    code = run([*CONVERT, "--json", "--set", "segmenter.options.fault=raise"])
+
+    out, err = capfd.readouterr()
+    document = json.loads(out)
+    assert (code, document["ok"], document["exit_code"]) == (1, False, 1)
+    assert f"error: {document['error']}" in err.splitlines()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "told"),
+    [
+        (["convert", "none.glb"], 2, "no such file: none.glb"),
+        (["convert", "."], 2, "is a folder"),
+        (["convert", "recipe.toml"], 2, "no plugin reads '.toml' files"),
+        (["convert", "cupboard.fake", "--recipe", "nobody"], 2, "unknown recipe 'nobody': known are"),
+        ([*CONVERT, "--set", "segmenter.options.fault=raise"], 1, "RuntimeError: out of ideas"),
+        ([*CONVERT, "--set", "segmenter.use=lasso"], 2, "unknown segmenter 'lasso': known are"),
+        ([*CONVERT, "--unit", "furlong"], 2, "unit 'furlong'"),
+        ([*CONVERT, "--up", "north"], 2, "--up"),
+        ([*CONVERT, "--height", "tall"], 2, "--height"),
+        ([*CONVERT, "-v", "-q"], 2, "exclude each other"),
+        ([*CONVERT, "--plugin", "missing.py"], 2, "no plugin file missing.py"),
+        ([*CONVERT, "--bogus"], 2, "--bogus"),
+        (["convert"], 2, "MESH"),
+        (["frobnicate"], 2, "frobnicate"),
+        (["export", ".", "--to", "urdf"], 2, "has no asset.json"),
+        (["check", "nowhere"], 2, "has no asset.json"),
+        (["inspect", "."], 2, "has no recording"),
+        (["recipes", "check", "nobody"], 2, "unknown recipe 'nobody'"),
+        (["plugins", "show", "nobody"], 2, "unknown stage 'nobody'"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else None,
+)
+def test_a_mistake_is_one_line_and_an_exit_code(home, capfd, arguments, code, told):
+    assert run(arguments) == code
+
+    lines = [line for line in capfd.readouterr().err.splitlines() if not re.search(r"\d s$", line)]
+    assert len(lines) == 1, lines
+    assert lines[0].startswith("error: ")
+    assert told in lines[0]
+
+
+def test_a_bug_is_one_line_that_asks_for_a_report_and_verbose_shows_where(home, capfd, monkeypatch):
+    monkeypatch.setattr("simart_kit.render.write_preview", lambda asset, path: 1 / 0)
+
+    assert run(CONVERT) == 1
+    assert capfd.readouterr().err.splitlines()[-1] == (
+        "error: unexpected ZeroDivisionError: division by zero; "
+        "run with -v for the traceback, and please report it"
+    )
+    assert run([*CONVERT, "-v"]) == 1
+    err = capfd.readouterr().err
+    assert "Traceback (most recent call last)" in err
+    assert err.splitlines()[-1] == "error: unexpected ZeroDivisionError: division by zero"
+    assert not (home / "out").exists()
+
+
+def test_an_interrupt_in_a_stage_is_clean(home, capfd):
+    assert run([*CONVERT, "-q", "--set", "segmenter.options.fault=interrupt"]) == 130
+
+    assert capfd.readouterr().err == "interrupted\n"
+    assert not (home / "out").exists()
+
+
+def test_ctrl_c_ends_a_run_that_hangs_and_leaves_nothing(home):
+    running = process(*CONVERT, "--set", "segmenter.options.fault=hang")
+    while not any((home / "out").rglob(".simart-kit-*")):
+        assert running.poll() is None
+        time.sleep(0.02)
+    assert running.stderr.readline().startswith("load fake")
+    time.sleep(0.1)
+    running.send_signal(signal.SIGINT)
+
+    code, _, err = finish(running)
+
+    assert code == 130
+    assert err.splitlines()[-1] == "interrupted"
+    assert not (home / "out").exists()
+
+
+def test_a_reader_that_goes_away_is_no_error(home):
+    running = process("recipes", "show", "all")
+    running.stdout.close()
+
+    assert running.stderr.read() == ""
+    assert running.wait() == 141
+    running.stderr.close()
+
+
+def test_help_and_versions(home, capfd):
+    assert run(["--help"]) == 0
+    assert re.search(r"Exit codes: 0 done;.*1 .*2 .*130", capfd.readouterr().out, re.DOTALL)
+    assert run([]) == 2
+    assert "Usage:" in capfd.readouterr().err
+    assert run(["--version"]) == 0
+    assert run(["version"]) == 0
+    first, second = capfd.readouterr().out.splitlines()
+    assert first == second
+    assert re.fullmatch(r"simart-kit \d+\.\d+\.\d+\S*", first)
+
+
+def test_export_writes_the_edited_asset_and_nothing_else_runs(home, capfd):
+    run([*CONVERT, "-q"])
+    path = home / "out" / "cupboard" / "asset.json"
+    table = json.loads(path.read_text())
+    table["joints"][0]["limits"]["lower"] = -1.25
+    path.write_text(json.dumps(table))
+    capfd.readouterr()
+
+    assert run(["export", "out/cupboard", "--to", "text", "--plugin", "fakes.py"]) == 0
+
+    assert capfd.readouterr().out == "out/cupboard/text/main.txt\n"
+    assert "lower=-1.25" in Path("out/cupboard/text/main.txt").read_text()
+
+
+def test_export_names_the_field_that_an_edit_broke(home, capfd):
+    save_asset(cabinet_asset(), home / "made")
+    path = home / "made" / "asset.json"
+    path.write_text(path.read_text().replace('"revolute"', '"revolving"'))
+
+    assert run(["export", "made", "--to", "urdf"]) == 2
+
+    assert "joints.0.kind" in capfd.readouterr().err
+
+
+def test_check_fails_with_the_asset(home, capfd):
+    save_asset(cabinet_asset(), home / "good")
+    save_asset(cabinet_asset(physics=False), home / "bad")
+
+    assert run(["check", "good"]) == 0
+    assert all(line.startswith("ok ") for line in capfd.readouterr().out.splitlines())
+    assert run(["check", "bad"]) == 1
+    assert re.search(r"^FAIL  mass: ", capfd.readouterr().out, re.MULTILINE)
+    assert run(["check", "bad", "--json"]) == 1
+    document = json.loads(capfd.readouterr().out)
+    assert (document["ok"], {c["name"]: c["passed"] for c in document["checks"]}["mass"]) == (False, False)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems always have a display")
+def test_inspect_without_a_display_says_what_to_do(home, capfd, monkeypatch):
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    (home / "cupboard.rrd").write_bytes(b"x")
+
+    assert run(["inspect", "."]) == 2
+    assert "no display" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("place", [".", "failed"])
+def test_inspect_opens_the_viewer_on_the_recording(home, monkeypatch, place):
+    called = []
+    monkeypatch.setenv("DISPLAY", ":0")
+    monkeypatch.setattr(
+        "simart_kit.cli.inspect.subprocess.run",
+        lambda command, check: called.append(command) or SimpleNamespace(returncode=0),
+    )
+    (home / place).mkdir(exist_ok=True)
+    (home / place / "cupboard.rrd").write_bytes(b"x")
+
+    assert run(["inspect", str(home)]) == 0
+    assert called[0][-1] == str(home / place / "cupboard.rrd")
+
+
+def test_recipes_are_listed_shown_and_checked(home, capfd):
+    assert run(["recipes", "list"]) == 0
+    listed = {line.split()[0] for line in capfd.readouterr().out.splitlines()}
+    assert {"default", "usd", "urdf", "mjcf", "all", "geometric"} <= listed
+
+    change = ["--set", 'export=[{use="mjcf"}]']
+    assert run(["recipes", "show", "default", *change]) == 0
+    (home / "shown.toml").write_text(capfd.readouterr().out)
+    plugins = Plugins(installed=False)
+    assert load_recipe(home / "shown.toml", plugins) == load_recipe("default", plugins, change[1:])
+
+    (home / "ships.py").write_text(
+        "import simart_kit as sk\n@sk.hookimpl\ndef register_recipes(register):\n"
+        "    register('shipped', 'recipe.toml')\n    register('lost', 'nowhere.toml')\n"
+    )
+    assert run(["recipes", "list", "--plugin", "fakes.py", "--plugin", "ships.py"]) == 0
+    lines = capfd.readouterr().out.splitlines()
+    assert [line for line in lines if line.startswith("shipped")] == ["shipped    for tests"]
+    assert any(re.match(r"lost +FAILED: cannot read recipe", line) for line in lines)
+
+    assert run(["recipes", "check", "recipe.toml", "--plugin", "fakes.py"]) == 0
+    assert capfd.readouterr().out == "ok: recipe.toml: labels > joints > text\n"
+
+
+def test_plugins_list_marks_failures_and_conflicts(home, capfd):
+    (home / "broken.py").write_text("1 / 0")
+    (home / "twin.py").write_text(FAKES)
+
+    assert run(["plugins", "list", "--check"]) == 0
+    capfd.readouterr()
+    files = ["--plugin", "broken.py", "--plugin", "fakes.py", "--plugin", "twin.py"]
+    assert run(["plugins", "list", *files]) == 0
+    out = capfd.readouterr().out
+    assert "FAILED  broken during import: ZeroDivisionError: division by zero" in out
+    assert "CONFLICT  segmenter 'labels' is registered by fakes (fakes.py) and by twin (twin.py)" in out
+    assert re.search(r"^exporter +usd +simart_kit_exporters\.usd \(built in ", out, re.MULTILINE)
+
+    assert run(["plugins", "list", "--check", "--json", *files]) == 1
+    document = json.loads(capfd.readouterr().out)
+    assert [(f["plugin"], f["phase"]) for f in document["failures"]] == [("broken", "import")]
+    assert [group[0]["name"] for group in document["conflicts"]] == ["labels", "joints", "text"]
+    assert ("exporter", "usd") in [(stage["kind"], stage["name"]) for stage in document["stages"]]
+
+
+def test_plugins_show_prints_doc_and_options(home, capfd):
+    assert run(["plugins", "show", "labels", "--plugin", "fakes.py"]) == 0
+    out = capfd.readouterr().out
+    assert "segmenter labels, from fakes (fakes.py)" in out
+    assert "Labels a cabinet.\n\nKnows one cabinet only." in out
+    assert re.search(r'fault +text +"" +What goes wrong\.', out)
+
+    assert run(["plugins", "show", "geometric", "--json"]) == 0
+    shown = json.loads(capfd.readouterr().out)
+    assert [row["kind"] for row in shown] == ["segmenter", "joint predictor"]
+    assert all(option["description"] for row in shown for option in row["options"])
+
+
+def test_progress_on_a_terminal_shows_finished_stages_and_the_next():
+    from rich.console import Console
+    from rich.progress import Progress, TextColumn
+
+    recipe = load_recipe("usd", Plugins(installed=False))
+    screen = StringIO()
+    console = Console(file=screen, force_terminal=True, width=80)
+    with Progress(TextColumn("running {task.description}"), console=console, auto_refresh=False) as shown:
+        bar = Bar(shown)
+        bar.run_started(SimpleNamespace(recipe=recipe))
+        bar.stage_finished("load", "glb", 0.25)
+        assert shown.tasks[0].description == f"segment {recipe.segmenter.use}"
+        for stage in steps(recipe)[1:]:
+            bar.stage_finished(stage.split()[0], stage.split()[-1], 0.5)
+        assert shown.tasks[0].finished
+    assert "load glb" in screen.getvalue()
+    assert "0.25 s" in screen.getvalue()
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["plugins", "list"]])
+def test_start_up_takes_little_cpu_time(arguments):
+    seconds = []
+    for _ in range(4):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        code, _, _ = finish(process(*arguments))
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        seconds.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+        assert code == 0
+    # The first start compiles modules.
+    assert min(seconds[1:]) < 0.4
+
+
+def test_plugins_list_imports_nothing_heavy():
+    heavy = "torch pxr mujoco rerun trimesh scipy PIL embreex"
+    code = (
+        "import sys; from simart_kit.cli.main import run; run(['plugins', 'list']);"
+        f"print(sorted(set('{heavy}'.split()) & set(sys.modules)))"
+    )
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+
+    assert out.splitlines()[-1] == "[]"
+
+
+def finish(running: subprocess.Popen) -> tuple[int, str, str]:
+    out, err = running.communicate(timeout=60)
+    return running.returncode, out, err

@@ -1,0 +1,455 @@
+"""A run from end to end with fake stages: what it leaves, and what it leaves alone when a stage fails."""
+
+import json
+import time
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import pytest
+
+import simart_kit as sk
+from simart_kit.errors import BadInputError, OutputError, StageError
+from simart_kit.exports import export_folder
+from simart_kit.pipeline import Result, convert
+from simart_kit.plugins import Owner, Plugins
+from simart_kit.testing.meshes import cabinet_asset, cabinet_mesh
+
+OWNER = Owner("fakes", "fake-distribution", "9.8.7")
+RECIPE = """
+schema = 1
+[segmenter]
+use = "fake_labels"
+[joints]
+use = "fake_joints"
+[[modify]]
+use = "fake_note"
+[[export]]
+use = "fake_text"
+"""
+
+
+class Labels(sk.Segmenter):
+    """The cabinet's true parts, or a fault."""
+
+    name = "fake_labels"
+
+    class Options(sk.Options):
+        fault: Literal["none", "raise", "exit", "hang", "shape", "dtype", "type", "interrupt"] = "none"
+
+    options: Options
+
+    def segment(self, mesh: sk.Mesh) -> sk.Segmentation:
+        labels = np.repeat([0, 1, 2], [60, 24, 24]).astype(np.int32)
+        match self.options.fault:
+            case "raise":
+                raise RuntimeError("out of ideas\nsecond line")
+            case "exit":
+                raise SystemExit(3)
+            case "hang":
+                time.sleep(30)
+            case "shape":
+                labels = labels[:-1]
+            case "dtype":
+                labels = labels.astype(np.float32)
+            case "type":
+                return labels  # type: ignore[return-value]
+            case "interrupt":
+                raise KeyboardInterrupt
+        return sk.Segmentation(labels, tuple(sk.PartGuess(n) for n in ("body", "door", "drawer")))
+
+
+class Joints(sk.JointPredictor):
+    """The cabinet's true joints, or a fault."""
+
+    name = "fake_joints"
+
+    class Options(sk.Options):
+        fault: Literal["none", "raise", "unknown part"] = "none"
+
+    options: Options
+
+    def predict(self, mesh: sk.Mesh, segmentation: sk.Segmentation) -> tuple[sk.Joint, ...]:
+        if self.options.fault == "raise":
+            raise RuntimeError("no joint today")
+        if self.options.fault == "unknown part":
+            return (sk.Joint("lid_hinge", "fixed", "body", "lid"),)
+        return cabinet_asset().joints
+
+
+class Remark(sk.Modifier):
+    """Adds a note, or a fault."""
+
+    name = "fake_note"
+
+    class Options(sk.Options):
+        text: str = "a remark"
+        fault: Literal["none", "raise", "nothing", "constructor"] = "none"
+
+    options: Options
+
+    def __init__(self, options: Options | None = None, *, seed: int = 0) -> None:
+        super().__init__(options, seed=seed)
+        if self.options.fault == "constructor":
+            raise FileNotFoundError("weights.bin")
+
+    def modify(self, asset: sk.Asset) -> sk.Asset:
+        if self.options.fault == "raise":
+            raise RuntimeError("cannot")
+        if self.options.fault == "nothing":
+            return None  # type: ignore[return-value]
+        return asset.with_notes("fake_note", "info", [self.options.text])
+
+
+class Text(sk.Exporter):
+    """Writes the joints' limits as text, or half of it."""
+
+    name = "fake_text"
+
+    class Options(sk.Options):
+        fault: Literal["none", "half", "elsewhere", "gaps"] = "none"
+        greeting: str = "hello"
+
+    options: Options
+
+    def export(self, asset: sk.Asset, directory: Path) -> Path:
+        main = directory / f"{asset.name}.txt"
+        main.write_text(f"{self.options.greeting} {asset.name}\n")
+        if self.options.fault == "half":
+            raise RuntimeError("disk on fire")
+        if self.options.fault == "elsewhere":
+            return directory.parent / "asset.json"
+        (directory / "limits.txt").write_text("".join(f"{j.name} {j.limits}\n" for j in asset.joints))
+        return main
+
+    def unsupported(self, asset: sk.Asset) -> tuple[str, ...]:
+        if self.options.fault == "gaps":
+            raise RuntimeError("lost count")
+        return ("text has no shape",)
+
+
+class Fakes:
+    """All of the above, and a loader of `.fake` files."""
+
+    @sk.hookimpl
+    def register_segmenters(self, register):
+        register(Labels)
+
+    @sk.hookimpl
+    def register_joint_predictors(self, register):
+        register(Joints)
+
+    @sk.hookimpl
+    def register_modifiers(self, register):
+        register(Remark)
+
+    @sk.hookimpl
+    def register_exporters(self, register):
+        register(Text)
+
+    @sk.hookimpl
+    def load_mesh(self, path):
+        if path.suffix != ".fake":
+            return None
+        if path.read_text() != "cabinet":
+            raise BadInputError(f"{path} is no cabinet")
+        return cabinet_mesh(textured=False)
+
+
+class Camera:
+    """An observer that leaves a recording, finished or not."""
+
+    @sk.hookimpl
+    def stage_finished(self, run, stage, name):
+        with (run.folder / f"{run.name}.rrd").open("a") as file:
+            file.write(f"{stage} {name}\n")
+
+
+class Workshop:
+    """A temporary folder with a source, a recipe and fresh plugins for each run."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.out = folder / "out"
+        self.source = folder / "cupboard.fake"
+        self.source.write_text("cabinet")
+        self.recipe = folder / "recipe.toml"
+        self.recipe.write_text(RECIPE)
+
+    def plugins(self, *observers: object) -> Plugins:
+        plugins = Plugins(installed=False)
+        plugins.register(Fakes(), OWNER)
+        for observer in observers:
+            plugins.register(observer)
+        return plugins
+
+    def run(self, *sets: str, observers: tuple[object, ...] = (), out: Path | None = None) -> Result:
+        return convert(
+            self.source,
+            self.recipe,
+            out=out or self.out,
+            sets=sets,
+            record=False,
+            plugins=self.plugins(*observers),
+        )
+
+    def export(self, exporter: str = "fake_text"):
+        return export_folder(self.out, exporter, self.plugins())
+
+
+@pytest.fixture
+def shop(tmp_path, monkeypatch) -> Workshop:
+    # Real pictures take seconds and have their own tests.
+    monkeypatch.setattr("simart_kit.render.write_preview", lambda asset, path: path.write_bytes(b"picture"))
+    return Workshop(tmp_path)
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def test_a_run_leaves_the_asset_the_exports_and_a_record_of_itself(shop):
+    result = shop.run()
+
+    assert set(contents(shop.out)) == {
+        "asset.json",
+        "parts.npz",
+        "preview.png",
+        "report.json",
+        "provenance.json",
+        "fake_text/cupboard.txt",
+        "fake_text/limits.txt",
+    }
+    assert result.paths["fake_text"] == shop.out / "fake_text" / "cupboard.txt"
+    assert result.paths["preview"] == shop.out / "preview.png"
+    assert {"asset", "report", "provenance", "preview", "fake_text"} == set(result.paths)
+    assert all(path.is_file() for path in result.paths.values())
+    assert [(j.child, j.kind) for j in sk.load_asset(shop.out).joints] == [
+        ("door", "revolute"),
+        ("drawer", "prismatic"),
+    ]
+    report = json.loads((shop.out / "report.json").read_text())
+    assert "fake_note: a remark" in report["notes"]
+    assert report["unsupported"] == {"fake_text": ["text has no shape"]}
+
+
+def test_the_record_names_every_stage_with_its_distribution_and_hashes_every_output(shop):
+    shop.run()
+
+    record = json.loads((shop.out / "provenance.json").read_text())
+    stages = [(s["kind"], s["name"], s["distribution"], s["version"]) for s in record["stages"]]
+    assert stages == [
+        ("segmenter", "fake_labels", "fake-distribution", "9.8.7"),
+        ("joint predictor", "fake_joints", "fake-distribution", "9.8.7"),
+        ("modifier", "fake_note", "fake-distribution", "9.8.7"),
+        ("exporter", "fake_text", "fake-distribution", "9.8.7"),
+    ]
+    assert set(record["outputs"]) == set(contents(shop.out)) - {"provenance.json"}
+
+
+FAULTS = [
+    ("segmenter.options.fault=raise", "segmenter 'fake_labels'", "RuntimeError: out of ideas", "mesh.npz"),
+    ("segmenter.options.fault=exit", "segmenter 'fake_labels'", "SystemExit: 3", "mesh.npz"),
+    ("segmenter.options.fault=hang", "segmenter 'fake_labels'", "longer than 0.2 s", "mesh.npz"),
+    ("segmenter.options.fault=shape", "segmenter 'fake_labels'", "shape (107,), expected (108,)", "mesh.npz"),
+    ("segmenter.options.fault=dtype", "segmenter 'fake_labels'", "float32, expected int32", "mesh.npz"),
+    ("segmenter.options.fault=type", "segmenter 'fake_labels'", "ndarray, expected a", "mesh.npz"),
+    ("joints.options.fault=raise", "joint predictor 'fake_joints'", "no joint today", "segmentation.npz"),
+    ("joints.options.fault=unknown part", "joint predictor 'fake_joints'", "'lid'", "segmentation.npz"),
+    ("modify.fake_note.options.fault=raise", "modifier 'fake_note'", "RuntimeError: cannot", "asset.json"),
+    ("modify.fake_note.options.fault=nothing", "modifier 'fake_note'", "NoneType, expected", "asset.json"),
+    ("export.fake_text.options.fault=half", "exporter 'fake_text'", "disk on fire", "asset.json"),
+    ("export.fake_text.options.fault=elsewhere", "exporter 'fake_text'", "expected the path", "asset.json"),
+    ("export.fake_text.options.fault=gaps", "exporter 'fake_text'", "lost count", "asset.json"),
+]
+
+
+@pytest.mark.parametrize(("fault", "stage", "reason", "kept"), FAULTS, ids=[f[0] for f in FAULTS])
+def test_a_failing_stage_is_named_and_its_input_kept_and_nothing_else_written(
+    shop, fault, stage, reason, kept
+):
+    with pytest.raises(StageError) as caught:
+        shop.run("stage_timeout=0.2" if "hang" in fault else "seed=0", fault, observers=(Camera(),))
+
+    line = str(caught.value)
+    assert line.startswith(f"{stage} failed (plugin fakes, fake-distribution 9.8.7): ")
+    assert reason in line
+    assert "\n" not in line
+    assert [p.name for p in shop.out.iterdir()] == ["failed"]
+    left = contents(shop.out / "failed")
+    assert f"input/{kept}" in left
+    assert b"Traceback" in left["error.txt"]
+    assert left["cupboard.rrd"].startswith(b"load fake\n")
+
+
+def test_a_stage_whose_constructor_fails_is_named_too(shop):
+    with pytest.raises(StageError, match=r"modifier 'fake_note' failed .*FileNotFoundError: weights.bin"):
+        shop.run("modify.fake_note.options.fault=constructor")
+
+    assert "error.txt" in contents(shop.out / "failed")
+
+
+def test_the_input_of_a_failed_modifier_opens_as_an_asset(shop):
+    with pytest.raises(StageError):
+        shop.run("modify.fake_note.options.fault=raise")
+
+    assert [j.name for j in sk.load_asset(shop.out / "failed" / "input").joints] == [
+        "door_hinge",
+        "drawer_slide",
+    ]
+
+
+@pytest.mark.parametrize("fault", ["segmenter.options.fault=raise", "export.fake_text.options.fault=half"])
+def test_a_failed_run_leaves_the_previous_output_untouched_to_the_byte(shop, fault):
+    shop.run()
+    before = contents(shop.out)
+
+    with pytest.raises(StageError):
+        shop.run(fault)
+
+    after = contents(shop.out)
+    assert {name: after[name] for name in before} == before
+    assert {Path(name).parts[0] for name in after.keys() - before.keys()} == {"failed"}
+
+
+def test_the_next_good_run_removes_what_a_failed_one_kept(shop):
+    with pytest.raises(StageError):
+        shop.run("segmenter.options.fault=raise")
+    shop.run()
+
+    assert not (shop.out / "failed").exists()
+
+
+def test_an_interrupted_run_leaves_nothing(shop):
+    with pytest.raises(KeyboardInterrupt):
+        shop.run("segmenter.options.fault=interrupt")
+
+    assert not shop.out.exists()
+
+
+def test_a_bad_source_leaves_nothing(shop):
+    shop.source.write_text("wardrobe")
+
+    with pytest.raises(BadInputError, match="is no cabinet"):
+        shop.run()
+
+    assert not shop.out.exists()
+
+
+def test_a_file_where_the_output_folder_should_be_is_told(shop):
+    shop.out.write_text("mine")
+
+    with pytest.raises(OutputError, match="cannot write to output folder"):
+        shop.run()
+    with pytest.raises(OutputError, match="cannot write to output folder"):
+        shop.run(out=shop.out / "below")
+
+    assert shop.out.read_text() == "mine"
+
+
+def test_files_the_user_changed_are_kept_beside_the_new_ones(shop):
+    shop.run()
+    (shop.out / "asset.json").write_text("edited")
+    (shop.out / "fake_text" / "my_notes.txt").write_text("keep me")
+
+    result = shop.run()
+
+    assert (shop.out / "asset.json.bak1").read_text() == "edited"
+    assert (shop.out / "fake_text.bak1" / "my_notes.txt").read_text() == "keep me"
+    assert sorted(p.name for p in shop.out.iterdir() if ".bak" in p.name) == [
+        "asset.json.bak1",
+        "fake_text.bak1",
+    ]
+    assert any("kept as asset.json.bak1" in warning for warning in result.report.warnings)
+    assert sk.load_asset(shop.out).name == "cupboard"
+
+
+def test_two_runs_are_the_same_to_the_byte(shop):
+    shop.run(out=shop.folder / "one")
+    shop.run(out=shop.folder / "two")
+
+    one, two = contents(shop.folder / "one"), contents(shop.folder / "two")
+    assert {n: b for n, b in one.items() if n != "provenance.json"} == {
+        n: b for n, b in two.items() if n != "provenance.json"
+    }
+
+
+def test_the_record_is_a_recipe_that_repeats_the_run(shop):
+    shop.run("seed=7", "modify.fake_note.options.text=again", "export.fake_text.options.greeting=ahoy")
+    repeated = shop.folder / "repeated"
+
+    convert(shop.source, shop.out / "provenance.json", out=repeated, record=False, plugins=shop.plugins())
+
+    first, second = contents(shop.out), contents(repeated)
+    assert first["fake_text/cupboard.txt"] == b"ahoy cupboard\n"
+    assert {n: b for n, b in second.items() if n != "provenance.json"} == {
+        n: b for n, b in first.items() if n != "provenance.json"
+    }
+
+
+def test_an_observer_that_raises_is_a_warning_and_the_others_still_hear(shop):
+    heard = []
+
+    class Broken:
+        @sk.hookimpl
+        def stage_finished(self, stage):
+            raise RuntimeError(f"cannot bear {stage}")
+
+    class Listener:
+        @sk.hookimpl
+        def run_started(self, run):
+            heard.append(f"started {run.name}")
+
+        @sk.hookimpl
+        def stage_finished(self, stage, name):
+            heard.append(f"{stage} {name}")
+
+        @sk.hookimpl
+        def run_finished(self, report):
+            heard.append(f"finished {report.name}")
+
+    result = shop.run(observers=(Broken(), Listener()))
+
+    assert (
+        "observer: Broken (registered object) failed in stage_finished: RuntimeError: cannot bear load"
+        in (result.report.warnings)
+    )
+    assert heard == [
+        "started cupboard",
+        "load fake",
+        "segment fake_labels",
+        "joints fake_joints",
+        "modify fake_note",
+        "check checks",
+        "preview preview",
+        "export fake_text",
+        "finished cupboard",
+    ]
+
+
+def test_observers_hear_of_a_failure_with_the_stage(shop):
+    heard = []
+
+    class Listener:
+        @sk.hookimpl
+        def run_failed(self, stage, error):
+            heard.append((stage, type(error)))
+
+    with pytest.raises(StageError):
+        shop.run("joints.options.fault=raise", observers=(Listener(),))
+
+    assert heard == [("joints", StageError)]
+
+
+def test_the_recording_of_a_failed_run_is_kept(shop):
+    with pytest.raises(StageError):
+        convert(
+            shop.source,
+            shop.recipe,
+            out=shop.out,
+            sets=["modify.fake_note.options.fault=raise"],
+            plugins=shop.plugins(),
+        )
+
+    assert (shop.out / "failed" / "cupboard.rrd").read_bytes()[:4] == b"RRF2"
+    assert not list(shop.out.glob("*.rrd"))
