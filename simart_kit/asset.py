@@ -51,7 +51,7 @@ class Joint:
         kind: one of `JointKind`.
         parent: name of the part that carries it.
         child: name of the part that it moves.
-        origin: (3,) a point on the axis, in the asset frame at rest [m]; also the origin of the child's frame.
+        origin: (3,) a point on the axis, in the asset frame at rest [m]; the child's frame sits there.
         axis: (3,) unit direction in the asset frame at rest; positive turns follow the right hand.
         limits: travel [rad | m]; required for revolute and prismatic, None for the other kinds.
         damping: [N*m*s/rad | N*s/m].

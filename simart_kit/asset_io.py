@@ -1,4 +1,4 @@
-"""Asset <-> folder: asset.json for people to read and edit, parts.npz for the arrays. See docs/asset-format.md."""
+"""Asset <-> folder: asset.json for people to edit, parts.npz for the arrays. See docs/asset-format.md."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _MESH_ARRAYS = ("vertices", "faces", "normals", "uv", "colors", "face_material",
 
 
 def save_asset(asset: Asset, folder: Path) -> Path:
-    """Write asset.json and parts.npz into a folder; returns asset.json. The same asset gives the same bytes."""
+    """Write asset.json and parts.npz; returns the former. The same asset gives the same bytes."""
     folder.mkdir(parents=True, exist_ok=True)
     arrays = _mesh_arrays(asset.mesh) | {"face_part": asset.face_part}
     for index, part in enumerate(asset.parts):
@@ -103,7 +103,7 @@ def _asset(table: AssetTable, arrays: dict[str, Any]) -> Asset:
     materials = tuple(
         _with_images(m.value(), index, arrays) for index, m in enumerate(table.visual_materials)
     )
-    optional = {name: arrays.get(name) for name in ("normals", "uv", "colors", "face_node")}
+    optional: dict[str, Any] = {name: arrays.get(name) for name in ("normals", "uv", "colors", "face_node")}
     mesh = Mesh(
         arrays["vertices"],
         arrays["faces"],
@@ -119,7 +119,7 @@ def _asset(table: AssetTable, arrays: dict[str, Any]) -> Asset:
 
 
 def _with_images(material: VisualMaterial, index: int, arrays: dict[str, Any]) -> VisualMaterial:
-    images = {
+    images: dict[str, Any] = {
         name: Image(frozen_bytes(arrays[f"material_{index}_{name}"]).tobytes())
         for name in _IMAGES
         if f"material_{index}_{name}" in arrays

@@ -9,8 +9,8 @@ import pluggy
 
 if TYPE_CHECKING:
     from .mesh import Mesh
-    from .pipeline import Run
     from .report import Report
+    from .runner import Run
     from .stages import Exporter, JointPredictor, Modifier, Segmenter
 
 hookspec = pluggy.HookspecMarker("simart_kit")

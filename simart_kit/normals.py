@@ -15,8 +15,8 @@ CREASE_ANGLE = np.deg2rad(35.0)
 def with_normals(mesh: Mesh, crease: float = CREASE_ANGLE) -> Mesh:
     """The mesh with `normals`; vertices on a crease are split, faces keep their order.
 
-    A corner's normal is the area-weighted mean of the faces around its position that lie within `crease` [rad]
-    of the corner's own face. Meshes that have normals come back as they are.
+    A corner's normal is the area-weighted mean of the faces around its position that lie within
+    `crease` [rad] of the corner's own face. Meshes that have normals come back as they are.
     """
     if mesh.normals is not None:
         return mesh

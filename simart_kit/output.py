@@ -101,6 +101,16 @@ def hashes(folder: Path) -> dict[str, str]:
     }
 
 
+def left_over(folder: Path, out: Path) -> dict[str, str]:
+    """Hashes of what earlier runs left in `out` and the run in `folder` does not write again."""
+    written = {path.name for path in folder.iterdir()}
+    return {
+        name: text
+        for name, text in _earlier_hashes(out).items()
+        if Path(name).parts[0] not in written and (out / name).is_file()
+    }
+
+
 def _is_ours(target: Path, out: Path, earlier: dict[str, str]) -> bool:
     if target.name == PROVENANCE:
         return bool(earlier)
@@ -113,8 +123,9 @@ def _is_ours(target: Path, out: Path, earlier: dict[str, str]) -> bool:
 
 def _earlier_hashes(out: Path) -> dict[str, str]:
     try:
-        return dict(json.loads((out / PROVENANCE).read_text(encoding="utf-8"))["outputs"])
-    except (OSError, ValueError, KeyError, TypeError):
+        record = json.loads((out / PROVENANCE).read_text(encoding="utf-8"))
+        return {**record.get("earlier_outputs", {}), **record["outputs"]}
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return {}  # no earlier run, or its record is not readable: then nothing counts as ours
 
 

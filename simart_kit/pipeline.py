@@ -9,15 +9,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from .asset import Asset, clean_name
 from .assemble import assemble, checked
+from .asset import Asset, clean_name
 from .asset_io import save_asset
 from .checks import run_checks
 from .errors import SimartKitError, StageError
 from .exports import export_all
 from .loading import Source, read_source, source_path
 from .mesh import Note, UpAxis
-from .output import PROVENANCE, commit, forget_failure, hashes, keep_failure, staging
+from .output import PROVENANCE, commit, forget_failure, hashes, keep_failure, left_over, staging
 from .plugins import Plugins
 from .provenance import provenance, write_json
 from .recipe import Recipe, build, load_recipe
@@ -168,6 +168,7 @@ def _finish(
     arguments: dict[str, Any],
 ) -> Result:
     run = runner.run
+    earlier = left_over(run.folder, folder)
     record = provenance(
         source=run.source,
         source_hash=loaded.sha256,
@@ -175,6 +176,7 @@ def _finish(
         used=runner.used,
         failures=plugins.failures,
         outputs=hashes(run.folder),
+        earlier_outputs=earlier,
         seconds=runner.seconds,
         arguments=arguments,
     )
@@ -182,7 +184,8 @@ def _finish(
     outputs = _outputs(run, mains)
     kept = commit(run.folder, folder)
     forget_failure(folder)
-    notes = report.notes + tuple(Note("output", "warning", text) for text in kept)
+    stale = [f"{name} is of an earlier run" for name in sorted({Path(n).parts[0] for n in earlier})]
+    notes = report.notes + tuple(Note("output", "warning", text) for text in [*kept, *stale])
     paths = {key: folder / main.relative_to(run.folder) for key, main in outputs.items()}
     return Result(report.asset, replace(report, notes=notes), paths, folder)
 

@@ -23,6 +23,7 @@ def provenance(
     used: Iterable[Registration],
     failures: Iterable[Failure],
     outputs: Mapping[str, str],
+    earlier_outputs: Mapping[str, str],
     seconds: Iterable[tuple[str, str, float]],
     arguments: Mapping[str, Any],
 ) -> dict[str, Any]:
@@ -48,6 +49,8 @@ def provenance(
         "plugin_failures": [str(f) for f in failures],
         "seconds": [{"stage": stage, "name": name, "seconds": round(s, 4)} for stage, name, s in seconds],
         "outputs": dict(outputs),
+        # Files that earlier runs left in the folder and this run did not write: not of this asset.
+        "earlier_outputs": dict(earlier_outputs),
     }
 
 

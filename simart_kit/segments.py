@@ -41,7 +41,7 @@ class Segments:
         kind = "crease-bounded patches of a fused surface" if self.patches else "connected components"
         text = f"{self.count} {kind}"
         if self.duplicates or self.degenerates:
-            text += f"; {self.duplicates} duplicate and {self.degenerates} degenerate faces left out of the analysis"
+            text += f"; {self.duplicates} duplicate and {self.degenerates} degenerate faces not analysed"
         return text
 
 
@@ -73,7 +73,12 @@ def find_segments(mesh: Mesh, crease: float = CREASE_ANGLE, node_hint: bool = Fa
     labels[duplicate] = labels[first[duplicate]]
     labels = _by_area(labels, mesh.face_areas)
     return Segments(
-        frozen_ints(labels), vertex, int(labels.max()) + 1, int(duplicate.sum()), int(degenerate.sum()), patches
+        frozen_ints(labels),
+        vertex,
+        int(labels.max()) + 1,
+        int(duplicate.sum()),
+        int(degenerate.sum()),
+        patches,
     )
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Options(BaseModel):
-    """Base of a stage's options: frozen, strict, unknown keys are errors. Describe every field with its unit."""
+    """Base of a stage's options: frozen, strict, no unknown keys. Describe every field with its unit."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 

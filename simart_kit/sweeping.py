@@ -1,4 +1,4 @@
-"""How far something moves before its surface passes through another: paths of surface points, cast as rays."""
+"""How far something moves before it passes through something: paths of surface points, as rays."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Sweep:
         still = still[near]
         self._deep = _DEEP * reach
         self._still, self._moving = _Surface(still), _Surface(moving)
-        # What lies inside the other at rest, as hinge knuckles and sloppy models do, only leaves it: not counted.
+        # What lies inside the other at rest, as hinge knuckles do, only leaves it: not counted.
         self._points = self._still.outside(sample_surface(moving, POINTS, rng))
         self._others = self._moving.outside(sample_surface(still, POINTS, rng))
 
@@ -52,7 +52,7 @@ class Sweep:
         for step, stop in enumerate(stops):
             posed = motion(float(stop))
             # Seen from the moving surface, the still points move the other way.
-            most = max(mine.advance(posed), others.advance(np.linalg.inv(posed)))
+            most = max(mine.advance(posed), others.advance(np.asarray(np.linalg.inv(posed))))
             shares[step] = most / max(len(self._points), 1)
         return shares
 
@@ -83,7 +83,7 @@ class _Surface:
             faces, _ = self.rays.first(points, direction + 0.01 * np.array([0.3, -0.5, 0.7]))
             met[row] = np.where(faces >= 0, self._piece[faces] if len(self._piece) else -1, -1)
         enclosed = (met == met[0]).all(axis=0) & (met[0] >= 0)
-        return points[~enclosed]
+        return np.asarray(points[~enclosed])
 
 
 class _Paths:

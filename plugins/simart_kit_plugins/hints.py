@@ -19,7 +19,9 @@ class Hints(JointPredictor):
     def predict(self, mesh: Mesh, segmentation: Segmentation) -> tuple[Joint, ...]:
         """The hints; raises ValueError when the segmenter gave none."""
         if segmentation.joints is None:
-            raise ValueError("the segmenter gave no joint hints: choose another joint predictor, such as geometric")
+            raise ValueError(
+                "the segmenter gave no joint hints: choose another joint predictor, such as geometric"
+            )
         return segmentation.joints
 
 

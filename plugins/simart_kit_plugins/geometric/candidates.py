@@ -53,7 +53,9 @@ def hinges(view: View) -> tuple[Candidate, ...]:
         "bottom": (np.array([1.0, 0.0, 0.0]), np.array([u, box.lower[1], w])),
         "top": (np.array([-1.0, 0.0, 0.0]), np.array([u, box.upper[1], w])),
     }
-    return tuple(Candidate("revolute", axis, origin, _QUARTER, edge) for edge, (axis, origin) in lines.items())
+    return tuple(
+        Candidate("revolute", axis, origin, _QUARTER, edge) for edge, (axis, origin) in lines.items()
+    )
 
 
 def spin(axis: FloatArray, center: FloatArray) -> Candidate:

@@ -80,7 +80,11 @@ def edge_score(view: View, hinge: Candidate, around: Surroundings) -> Score:
         (1.5, upright and opposite > 0.3, "handle on the opposite side"),
         (1.6, not upright and opposite > 0.5 and (bar or lid) and centred, "handle along the opposite side"),
         (1.5, _hardware_on(view, hinge, around), "hinge-like pieces on this edge"),
-        (2.0, abs(view.ajar) > AJAR and upright and (view.ajar < 0) == (hinge.edge == "left"), "ajar from this edge"),
+        (
+            2.0,
+            abs(view.ajar) > AJAR and upright and (view.ajar < 0) == (hinge.edge == "left"),
+            "ajar from this edge",
+        ),
         (-0.7, _neighbour_beyond(view, hinge, around), ""),
         (0.3, _at_body_edge(view, hinge), "at the outer edge of the body"),
         (-0.6, not upright and not lid, ""),
@@ -119,7 +123,9 @@ def _neighbour_beyond(view: View, hinge: Candidate, around: Surroundings) -> boo
     panel = view.box
     for other in around.neighbours:
         start = other.lower[axis] if sign > 0 else other.upper[axis]
-        beside = min(other.upper[1 - axis], panel.upper[1 - axis]) - max(other.lower[1 - axis], panel.lower[1 - axis])
+        beside = min(other.upper[1 - axis], panel.upper[1 - axis]) - max(
+            other.lower[1 - axis], panel.lower[1 - axis]
+        )
         level = other.upper[2] > panel.lower[2] and other.lower[2] < panel.upper[2]
         if abs(start - place) < 0.04 and beside > 0.3 * panel.size[1 - axis] and level:
             return True
@@ -129,4 +135,4 @@ def _neighbour_beyond(view: View, hinge: Candidate, around: Surroundings) -> boo
 def _at_body_edge(view: View, hinge: Candidate) -> bool:
     axis, place, sign = _edge_line(view, hinge)
     edge = view.body.upper[axis] if sign > 0 else view.body.lower[axis]
-    return abs(edge - place) < 0.12 * view.body.size[axis]
+    return bool(abs(edge - place) < 0.12 * view.body.size[axis])

@@ -37,7 +37,9 @@ class Contacts:
 
     def touching(self, piece: int, gap: float) -> list[int]:
         """Other pieces within `gap`."""
-        return [other for other in range(self._scene.count) if other != piece and self.gap(piece, other) <= gap]
+        return [
+            other for other in range(self._scene.count) if other != piece and self.gap(piece, other) <= gap
+        ]
 
     def _one_way(self, a: int, b: int) -> float:
         """Points of a against triangles of b, both only where the other's box is near."""
@@ -59,9 +61,9 @@ class Contacts:
 
 def point_triangle_distances(points: FloatArray, triangles: FloatArray) -> FloatArray:
     """(N,) distance of each point to the nearest of (M, 3, 3) triangles."""
-    return np.concatenate([
-        _block(points[start : start + 64], triangles).min(axis=1) for start in range(0, len(points), 64)
-    ])
+    return np.concatenate(
+        [_block(points[start : start + 64], triangles).min(axis=1) for start in range(0, len(points), 64)]
+    )
 
 
 def _block(points: FloatArray, triangles: FloatArray) -> FloatArray:
@@ -88,4 +90,4 @@ def _spread(values: FloatArray, most: int) -> FloatArray:
     """At most so many rows, evenly taken."""
     if len(values) <= most:
         return values
-    return values[np.linspace(0, len(values) - 1, most).astype(int)]
+    return np.asarray(values[np.linspace(0, len(values) - 1, most).astype(int)])

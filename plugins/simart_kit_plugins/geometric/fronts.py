@@ -13,6 +13,7 @@ from .scene import FACINGS, Box, Scene
 
 # All lengths are shares of the object's diagonal.
 TOUCH = 0.004  # closer than this, a handle sits on its panel
+LOOSE = 2e-4  # farther than this, a panel is not glued to its neighbour
 HOLDS = 0.001  # closer than this, a wall holds a shelf
 HANGS = 0.012  # closer than this, a box behind a front hangs on it
 SMALLEST = 0.035  # a front is at least this wide and high
@@ -29,13 +30,18 @@ class Front:
         facing: key of `FACINGS`.
         box: of the piece, in (u, v, w).
         inlays: pieces within the panel's rectangle and thickness, such as glass.
-        handles: pieces that stick out of it and touch nothing else.
+        handles: pieces that stick out of it.
         behind: pieces within its rectangle that hang on its back, such as a drawer's box.
         walled: share of rays from behind it to the sides that meet something.
         backed: share of rays from behind it straight back that meet something.
         depth: median way of those rays.
         framed: share of sides on which something stands close beside it.
         boxed: whether it, with what hangs behind it, reaches as far back as a drawer does.
+        hollow: whether the piece is open above, as a drawer in one piece is.
+        flat: share of the piece's surface that faces out or back.
+        loose: whether there is a gap, if a small one, to everything beside what moves with it.
+        share: of the side's whole rectangle.
+        handles_middle: (3,) middle of all handles, or of the piece without any.
     """
 
     piece: int
@@ -49,6 +55,11 @@ class Front:
     depth: float
     framed: float
     boxed: bool
+    hollow: bool
+    flat: float
+    loose: bool
+    share: float
+    handles_middle: FloatArray
 
     @property
     def pieces(self) -> tuple[int, ...]:
@@ -90,8 +101,21 @@ def _front(
     whole = scene.box.turned(axes)
     walled, backed, depth = _surroundings(scene, axes, box, own)
     return Front(
-        piece, facing, box, inlays, handles, behind, walled, backed, depth,
+        piece,
+        facing,
+        box,
+        inlays,
+        handles,
+        behind,
+        walled,
+        backed,
+        depth,
         framed=_framed(scene, axes, box, own),
+        hollow=_hollow(scene, axes, box, piece),
+        flat=_flat(scene, axes, piece),
+        loose=all(contacts.gap(piece, i) > LOOSE for i in range(len(boxes)) if i not in own),
+        handles_middle=np.mean([boxes[i].center for i in handles or (piece,)], axis=0),
+        share=float(np.prod(box.size[:2]) / np.prod(whole.size[:2])),
         boxed=_boxed(box.upper[2] - min(boxes[i].lower[2] for i in (piece, *behind)), box, whole),
     )
 
@@ -101,10 +125,27 @@ def _boxed(reach: float, front: Box, whole: Box) -> bool:
     return bool(reach > 0.3 * whole.size[2] and reach > 0.3 * front.size[:2].min())
 
 
+def _hollow(scene: Scene, axes: FloatArray, box: Box, piece: int) -> bool:
+    """Whether most rays from above go well into a piece before they meet it."""
+    above = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])  # (u, v, w) -> across, depth, upward
+    points = _grid(box.turned(above), 8, 0.8)
+    origins = np.column_stack([points[:, 0], np.full(len(points), box.upper[1] + 0.01), -points[:, 1]])
+    others = tuple(i for i in range(scene.count) if i != piece)
+    labels, distance = _cast(scene, axes, origins, np.array([0.0, -1.0, 0.0]), others)
+    return float(((labels >= 0) & (distance > 0.3 * box.size[1])).mean()) > 0.5
+
+
+def _flat(scene: Scene, axes: FloatArray, piece: int) -> float:
+    faces = scene.faces_of((piece,))
+    facing = np.abs(scene.normals[faces] @ axes[2]) > 0.9
+    return float(scene.face_areas[faces][facing].sum() / max(scene.face_areas[faces].sum(), 1e-30))
+
+
 def _within(inner: Box, outer: Box, margin: float) -> bool:
     """Whether one rectangle (u, v) lies in another."""
     return bool(
-        (inner.lower[:2] >= outer.lower[:2] - margin).all() and (inner.upper[:2] <= outer.upper[:2] + margin).all()
+        (inner.lower[:2] >= outer.lower[:2] - margin).all()
+        and (inner.upper[:2] <= outer.upper[:2] + margin).all()
     )
 
 
@@ -130,7 +171,7 @@ def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int
         and _within(box, panel, 0.5 * TOUCH)
         and box.upper[2] > panel.upper[2] + 0.5 * TOUCH
         and box.upper[2] > reach
-        and np.prod(box.size[:2]) < 0.4 * np.prod(panel.size[:2])
+        and np.prod(box.size[:2]) < 0.25 * np.prod(panel.size[:2])
         and box.size[2] < 0.5 * panel.size[:2].max()
     ]
     # What touches the panel is on it, and so is what touches that: a knob on its stem.
@@ -149,9 +190,7 @@ def _behind(contacts: Contacts, boxes: list[Box], piece: int, front: tuple[int, 
     inside = [
         i
         for i, box in enumerate(boxes)
-        if i not in (piece, *front)
-        and _within(box, panel, 0.0)
-        and box.upper[2] <= panel.upper[2] + TOUCH
+        if i not in (piece, *front) and _within(box, panel, 0.0) and box.upper[2] <= panel.upper[2] + TOUCH
     ]
     hanging: set[int] = {piece}
     grown = True
@@ -159,7 +198,8 @@ def _behind(contacts: Contacts, boxes: list[Box], piece: int, front: tuple[int, 
         more = [
             i
             for i in inside
-            if i not in hanging and any(contacts.gap(i, j) <= HANGS for j in hanging)
+            if i not in hanging
+            and any(contacts.gap(i, j) <= HANGS for j in hanging)
             and not _held(contacts, boxes, i, {piece, *front, *inside})
         ]
         hanging.update(more)
@@ -173,16 +213,22 @@ def _held(contacts: Contacts, boxes: list[Box], piece: int, own: set[int]) -> bo
     holders = [
         i
         for i, other in enumerate(boxes)
-        if i not in own and other.lower[1] < box.center[1] < other.upper[1] and contacts.gap(piece, i) <= HOLDS
+        if i not in own
+        and other.lower[1] < box.center[1] < other.upper[1]
+        and contacts.gap(piece, i) <= HOLDS
     ]
     left = any(boxes[i].lower[0] <= box.lower[0] + TOUCH for i in holders)
     right = any(boxes[i].upper[0] >= box.upper[0] - TOUCH for i in holders)
     return left and right
 
 
-def _drawer_box(scene: Scene, axes: FloatArray, boxes: list[Box], piece: int, behind: tuple[int, ...]) -> bool:
+def _drawer_box(
+    scene: Scene, axes: FloatArray, boxes: list[Box], piece: int, behind: tuple[int, ...]
+) -> bool:
     """Whether what hangs behind fills the front's rectangle fairly, and is closed when seen from below."""
-    inner = Box(np.min([boxes[i].lower for i in behind], axis=0), np.max([boxes[i].upper for i in behind], axis=0))
+    inner = Box(
+        np.min([boxes[i].lower for i in behind], axis=0), np.max([boxes[i].upper for i in behind], axis=0)
+    )
     if (inner.size[:2] < (0.6, 0.3) * boxes[piece].size[:2]).any():
         return False
     below = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # (u, v, w) -> across, depth, downward
@@ -216,7 +262,9 @@ def _small(scene: Scene, labels: FloatArray, box: Box) -> BoolArray:
     return np.asarray(areas[labels] < 0.5 * np.prod(box.size[:2]))
 
 
-def _surroundings(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> tuple[float, float, float]:
+def _surroundings(
+    scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]
+) -> tuple[float, float, float]:
     """Shares of rays from just behind the panel that meet other pieces: to the sides, and straight back."""
     behind = box.lower[2] if box.size[2] < 0.05 else box.upper[2] - 0.02
     points = _grid(box, 5, 0.8)

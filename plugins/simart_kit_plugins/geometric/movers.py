@@ -11,7 +11,9 @@ from .fronts import Front, find_fronts
 from .scene import FACINGS, Scene
 
 ENCLOSED = 0.85  # share of rays behind a panel that must meet something for a cavity
-SHALLOWEST = 0.04  # a cavity is at least this deep
+SHALLOWEST = 0.05  # a cavity is at least this deep
+FLAT = 0.4  # share of a panel's surface that faces out or back
+LEAST_SHARE = 0.06  # of its side that a front without a handle takes
 
 
 @dataclass(frozen=True)
@@ -58,8 +60,8 @@ def _main_side(fronts: dict[str, list[Front]]) -> str:
     prior = {"front": 0.2, "top": -0.2}
 
     def weight(facing: str) -> float:
-        handled = sum(1.0 + f.area for f in fronts[facing] if f.handles and _backed(f))
-        hollow = sum(0.3 for f in fronts[facing] if _closes_cavity(f))
+        handled = sum(1.0 + f.area for f in fronts[facing] if _opens_by_handle(f))
+        hollow = sum(0.8 if f.loose else 0.3 for f in fronts[facing] if _opens_by_place(f))
         return handled + hollow + prior.get(facing, 0.0)
 
     return max(fronts, key=weight)
@@ -67,25 +69,37 @@ def _main_side(fronts: dict[str, list[Front]]) -> str:
 
 def _score(front: Front, main: bool) -> float:
     """0 for a front that stays, else how sure it moves."""
-    if front.handles and _backed(front):
+    if _opens_by_handle(front):
         return 0.9 if main else 0.6
-    if front.handles and front.framed >= 0.75:
-        return 0.7
-    if not main:
-        return 0.0
-    if front.behind and front.boxed and front.backed >= ENCLOSED:
-        return 0.8
-    if _closes_cavity(front):
-        return 0.6
-    return 0.0
+    return 0.6 if main and _opens_by_place(front) else 0.0
+
+
+def _opens_by_handle(front: Front) -> bool:
+    """Something sticks out of a panel that has something behind it, or of a drawer, or stands in a frame."""
+    if not front.handles:
+        return False
+    if front.facing == "top":
+        return _is_panel(front) and _closes_cavity(front)
+    if front.boxed:
+        return front.walled >= 0.5 or front.hollow or bool(front.behind)
+    return _is_panel(front) and (front.backed >= ENCLOSED or front.framed >= 0.75)
+
+
+def _opens_by_place(front: Front) -> bool:
+    """Without a handle: a panel before a cavity, or an open box among walls."""
+    if front.share < LEAST_SHARE:
+        return False
+    if front.boxed:
+        return front.backed >= ENCLOSED and (bool(front.behind) or (front.hollow and front.walled >= 0.5))
+    return _is_panel(front) and _closes_cavity(front)
+
+
+def _is_panel(front: Front) -> bool:
+    return front.flat >= FLAT and front.box.size[2] < 0.5 * front.box.size[:2].min()
 
 
 def _fused_score(front: Front) -> float:
-    return 0.4 if front.handles and front.framed >= 0.75 and _backed(front) else 0.0
-
-
-def _backed(front: Front) -> bool:
-    return front.backed >= ENCLOSED or front.boxed
+    return 0.4 if front.handles and front.framed >= 0.75 and front.backed >= ENCLOSED else 0.0
 
 
 def _closes_cavity(front: Front) -> bool:
@@ -95,7 +109,15 @@ def _closes_cavity(front: Front) -> bool:
 def _label(front: Front) -> str:
     if front.facing == "top":
         return "lid"
-    return "drawer" if front.boxed else "door"
+    return "drawer" if front.boxed or _like_drawer(front) else "door"
+
+
+def _like_drawer(front: Front) -> bool:
+    """A low, wide front with its handles in the middle: the box behind was left out of the model."""
+    if not front.handles or front.box.size[0] < 1.6 * front.box.size[1]:
+        return False
+    off = (front.handles_middle - front.box.center)[:2] / front.box.size[:2]
+    return bool(np.abs(off).max() < 0.2)
 
 
 def _evidence(front: Front) -> tuple[str, ...]:

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from simart_kit.arrays import FloatArray
+
 from .movers import Mover
 from .scene import Scene
 
@@ -28,12 +30,15 @@ def names(scene: Scene, movers: Sequence[Mover]) -> list[str]:
     return result
 
 
-def _center(scene: Scene, mover: Mover) -> np.ndarray:
+def _center(scene: Scene, mover: Mover) -> FloatArray:
     boxes = [scene.boxes[i] for i in mover.pieces]
-    return (np.min([b.lower for b in boxes], axis=0) + np.max([b.upper for b in boxes], axis=0)) / 2
+    middle: FloatArray = (
+        np.min([b.lower for b in boxes], axis=0) + np.max([b.upper for b in boxes], axis=0)
+    ) / 2
+    return middle
 
 
-def _sides(a: np.ndarray, b: np.ndarray) -> tuple[str, str]:
+def _sides(a: FloatArray, b: FloatArray) -> tuple[str, str]:
     words = (("left", "right"), ("front", "back"), ("lower", "upper"))
     apart = a - b
     axis = int(np.abs(apart).argmax())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,8 +12,9 @@ import simart_kit
 from simart_kit import JointPredictor, Segmentation
 from simart_kit.arrays import vec3
 from simart_kit.asset import Joint, Limits, clean_name, unique_names
+from simart_kit.kinematics import rotation
 from simart_kit.segments import find_segments
-from simart_kit.sweeping import BLOCKED, Sweep
+from simart_kit.sweeping import BLOCKED, Motion, Sweep
 
 from .candidates import Candidate, at_depth, hinges, slide, spin
 from .choice import SPINNING, Surroundings, edge_score, hinge_score, says, slide_score
@@ -136,7 +138,12 @@ def _hardware(mesh: Mesh, scene: Scene, body: int) -> Scene | None:
         return None
     _, labels = np.unique(pieces[faces], return_inverse=True)
     return Scene(
-        whole.triangles[faces], labels, int(labels.max()) + 1, whole.aligned_from_asset, whole.size, whole.origin
+        whole.triangles[faces],
+        labels,
+        int(labels.max()) + 1,
+        whole.aligned_from_asset,
+        whole.size,
+        whole.origin,
     )
 
 
@@ -172,9 +179,7 @@ def _deep_enough(scene: Scene, view: View, hinge: Candidate) -> Candidate:
     return best
 
 
-def _turning(hinge: Candidate):  # type: ignore[no-untyped-def]
-    from simart_kit.kinematics import rotation
-
+def _turning(hinge: Candidate) -> Motion:
     def motion(angle: float) -> FloatArray:
         matrix = np.eye(4)
         matrix[:3, :3] = rotation(hinge.axis * angle)
@@ -185,7 +190,7 @@ def _turning(hinge: Candidate):  # type: ignore[no-untyped-def]
 
 
 def _closed(view: View, hinge: Candidate) -> float:
-    """Position at which a panel that stands ajar is closed [rad], at most 0; open the other way it counts as shut."""
+    """Position at which a panel that stands ajar is closed [rad], at most 0."""
     opened = {"left": -view.ajar, "right": view.ajar}.get(hinge.edge, 0.0)
     return -opened if opened > _SHUT else 0.0
 
@@ -201,7 +206,5 @@ def _rounded(axis: FloatArray) -> FloatArray:
 
 
 def _renamed(joints: list[Joint]) -> tuple[Joint, ...]:
-    from dataclasses import replace
-
     names = unique_names([joint.name for joint in joints])
     return tuple(replace(joint, name=name) for joint, name in zip(joints, names, strict=True))

@@ -27,13 +27,17 @@ def round_axis(points: FloatArray) -> int | None:
         bins = ((np.arctan2(b, a) + np.pi) / (2 * np.pi) * _BINS).astype(int) % _BINS
         farthest = np.zeros(_BINS)
         np.maximum.at(farthest, bins, radius)
-        if farthest.min() > 0 and farthest.std() < _ROUND * farthest.mean() and size[axis] < 1.2 * size[across].max():
+        if (
+            farthest.min() > 0
+            and farthest.std() < _ROUND * farthest.mean()
+            and size[axis] < 1.2 * size[across].max()
+        ):
             return int(axis)
     return None
 
 
 def wheels(scene: Scene, contacts: Contacts) -> list[Mover]:
-    """Discs with a level axis that stand on the ground, at least two of a size, with all that turns in them."""
+    """Discs with a level axis that stand on the ground, at least two of a size, and all within them."""
     ground = scene.box.lower[2]
     found: list[tuple[int, float]] = []
     for piece, box in enumerate(scene.boxes):
@@ -62,7 +66,9 @@ def knobs(scene: Scene, taken: set[int]) -> list[Mover]:
             continue
         axis = round_axis(scene.triangles[scene.labels == piece].reshape(-1, 3))
         if axis == 1:
-            rounds.append((round(float(box.center[2]), 2), round(float(box.size[2]), 3), float(box.center[0]), piece))
+            rounds.append(
+                (round(float(box.center[2]), 2), round(float(box.size[2]), 3), float(box.center[0]), piece)
+            )
     rows: dict[tuple[float, float], list[tuple[float, int]]] = {}
     for height, diameter, place, piece in rounds:
         rows.setdefault((height, diameter), []).append((place, piece))
@@ -80,5 +86,6 @@ def _inside(scene: Scene, contacts: Contacts, wheel: int) -> list[int]:
     return [
         i
         for i in contacts.touching(wheel, 0.01)
-        if (scene.boxes[i].lower >= outer.lower - 0.01).all() and (scene.boxes[i].upper <= outer.upper + 0.01).all()
+        if (scene.boxes[i].lower >= outer.lower - 0.01).all()
+        and (scene.boxes[i].upper <= outer.upper + 0.01).all()
     ]

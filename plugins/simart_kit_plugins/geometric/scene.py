@@ -97,12 +97,12 @@ class Scene:
     @cached_property
     def areas(self) -> FloatArray:
         """(count,) surface of each piece."""
-        return np.bincount(self.labels, self.face_areas, self.count)
+        return np.asarray(np.bincount(self.labels, self.face_areas, self.count), dtype=np.float64)
 
     @cached_property
     def face_areas(self) -> FloatArray:
         """(F,) area of each face."""
-        return np.linalg.norm(self._crosses, axis=1) / 2
+        return np.asarray(np.linalg.norm(self._crosses, axis=1) / 2)
 
     @cached_property
     def normals(self) -> FloatArray:

@@ -82,9 +82,7 @@ def _shown(scene: Scene, axes: FloatArray, part: int) -> float:
     return float(seen.mean() * np.prod(box.size[:2]))
 
 
-def _front_plane(
-    scene: Scene, axes: FloatArray, faces: IntArray, corners: FloatArray
-) -> tuple[float, float]:
+def _front_plane(scene: Scene, axes: FloatArray, faces: IntArray, corners: FloatArray) -> tuple[float, float]:
     """Where most of the outward surface lies [w], and how far it is turned about v [rad]."""
     normals = scene.normals[faces] @ axes.T
     outward = np.flatnonzero(normals[:, 2] > 0.8)

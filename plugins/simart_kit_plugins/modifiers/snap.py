@@ -31,7 +31,10 @@ class Snap(Modifier):
 
         angle: float = Field(default=8.0, gt=0, le=45, description="Largest turn of an axis [degrees].")
         share: float = Field(
-            default=0.05, gt=0, le=1, description="Share of the surface that a main direction needs to face along it."
+            default=0.05,
+            gt=0,
+            le=1,
+            description="Share of the surface that a main direction needs to face along it.",
         )
 
     options: Options
@@ -79,7 +82,7 @@ def main_directions(normals: FloatArray, areas: FloatArray, share: float) -> Flo
 
 
 def _clean(direction: FloatArray) -> FloatArray:
-    """Exactly along a coordinate axis when a quarter of a degree from it: faces are seldom truer than that."""
+    """Exactly along a coordinate axis when a quarter of a degree from it: faces are seldom truer."""
     axis = np.where(np.abs(direction) < np.sin(_SAME_DIRECTION / 2), 0.0, direction)
     return np.asarray(axis / np.linalg.norm(axis))
 

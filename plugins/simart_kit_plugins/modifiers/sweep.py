@@ -1,4 +1,4 @@
-"""Modifier `sweep`: move every joint through its range; stop the range where surfaces meet, flag what is stuck."""
+"""Modifier `sweep`: stop a joint's range where surfaces meet, and flag what is stuck."""
 
 from __future__ import annotations
 
@@ -27,7 +27,10 @@ class Sweep(Modifier):
 
         steps: int = Field(default=30, ge=2, le=720, description="Stops on the way to each limit.")
         least: float = Field(
-            default=0.25, ge=0, le=1, description="Share of the wanted travel below which a joint counts as stuck."
+            default=0.25,
+            ge=0,
+            le=1,
+            description="Share of the wanted travel below which a joint counts as stuck.",
         )
 
     options: Options
@@ -47,12 +50,12 @@ class Sweep(Modifier):
                 stuck.append(f"{joint.name} is {flag.removeprefix('sweep: ')}: limits kept, look at it")
             elif (lower, upper) != (joint.limits.lower, joint.limits.upper):
                 changed[joint.name] = replace(joint, limits=simart_kit.Limits(lower, upper))
-                shortened.append(
-                    f"{joint.name}: {_amount(joint, joint.limits.lower)} .. {_amount(joint, joint.limits.upper)}"
-                    f" shortened to {_amount(joint, lower)} .. {_amount(joint, upper)}"
-                )
+                before = _range(joint, joint.limits.lower, joint.limits.upper)
+                shortened.append(f"{joint.name}: {before} shortened to {_range(joint, lower, upper)}")
         return (
-            asset.with_joints(changed).with_notes("sweep", "info", shortened).with_notes("sweep", "warning", stuck)
+            asset.with_joints(changed)
+            .with_notes("sweep", "info", shortened)
+            .with_notes("sweep", "warning", stuck)
         )
 
     def _free(self, asset: Asset, joint: Joint) -> tuple[float, float]:
@@ -71,8 +74,10 @@ class Sweep(Modifier):
             return matrix
 
         assert joint.limits is not None
-        ends = [paths.free(motion, end, self.options.steps) if end else 0.0
-                for end in (joint.limits.lower, joint.limits.upper)]
+        ends = [
+            paths.free(motion, end, self.options.steps) if end else 0.0
+            for end in (joint.limits.lower, joint.limits.upper)
+        ]
         return ends[0], ends[1]
 
 
@@ -84,6 +89,10 @@ def carried(asset: Asset, part: str) -> set[str]:
         if not more:
             return found
         found |= more
+
+
+def _range(joint: Joint, lower: float, upper: float) -> str:
+    return f"{_amount(joint, lower)} .. {_amount(joint, upper)}"
 
 
 def _amount(joint: Joint, position: float) -> str:
