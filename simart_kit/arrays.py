@@ -9,12 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
+Float32Array = NDArray[np.float32]
 IntArray = NDArray[np.integer[Any]]
 ByteArray = NDArray[np.uint8]
 BoolArray = NDArray[np.bool_]
 T = TypeVar("T", bound=np.generic)
 Vec3 = tuple[float, float, float]
 Mat3 = tuple[Vec3, Vec3, Vec3]
+UP: Vec3 = (0.0, 0.0, 1.0)
 
 
 def frozen_floats(values: ArrayLike) -> FloatArray:
@@ -51,6 +53,13 @@ def unit(values: Sequence[float] | FloatArray) -> FloatArray:
     if not np.isfinite(length) or length < 1e-12:
         raise ValueError(f"a direction needs a length, got {vector.tolist()}")
     return vector / length
+
+
+def units(vectors: FloatArray, otherwise: Vec3 = (0.0, 0.0, 0.0)) -> FloatArray:
+    """(N, 3) vectors divided by their lengths; `otherwise` where that is 0."""
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    result = np.tile(np.array(otherwise), (len(vectors), 1))
+    return np.asarray(np.divide(vectors, length, out=result, where=length > 0))
 
 
 def _freeze(array: NDArray[T]) -> NDArray[T]:

@@ -31,7 +31,7 @@ def textured_surfaces(asset: Asset) -> dict[str, tuple[Surface, ...]]:
 
 def loses_colors(surface: Surface) -> bool:
     """Whether a texture hides vertex colours that are not plain white."""
-    return _has_texture(surface) and surface.colors is not None and bool((surface.colors != 255).any())
+    return bool(surface.picture and surface.colors is not None and (surface.colors != 255).any())
 
 
 def bake_colors(surface: Surface) -> Surface:
@@ -71,10 +71,6 @@ def bake_colors(surface: Surface) -> Surface:
     )
 
 
-def _has_texture(surface: Surface) -> bool:
-    return surface.uv is not None and surface.material.base_color_image is not None
-
-
 def _tinted_texture(material: VisualMaterial) -> VisualMaterial:
     image, factor = material.base_color_image, material.base_color
     if image is None or factor[:3] == (1.0, 1.0, 1.0):
@@ -83,7 +79,7 @@ def _tinted_texture(material: VisualMaterial) -> VisualMaterial:
 
 
 def _one_texture(surface: Surface, material: VisualMaterial) -> Surface:
-    if _has_texture(surface):
+    if surface.picture:
         return replace(surface, material=material, colors=None)
     if material.base_color_image is not None:  # a picture without coordinates
         material = replace(material, base_color_image=None)

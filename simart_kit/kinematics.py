@@ -24,13 +24,19 @@ def ordered_joints(asset: Asset) -> tuple[Joint, ...]:
     children: dict[str, list[Joint]] = {}
     for joint in asset.joints:
         children.setdefault(joint.parent, []).append(joint)
-    ordered: list[Joint] = []
-    waiting = [asset.root.name]
-    while waiting:
-        found = children.get(waiting.pop(0), [])
-        ordered += found
-        waiting += [j.child for j in found]
+    ordered = list(children.get(asset.root.name, []))
+    for joint in ordered:  # grows while it is gone through
+        ordered += children.get(joint.child, [])
     return tuple(ordered)
+
+
+def carried(asset: Asset, part: str) -> set[str]:
+    """Names of a part and of all that it carries."""
+    found = {part}
+    for joint in ordered_joints(asset):
+        if joint.parent in found:
+            found.add(joint.child)
+    return found
 
 
 def rest_origin(asset: Asset, part: str) -> FloatArray:

@@ -9,8 +9,9 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from .arrays import ByteArray, FloatArray, IntArray, frozen_bytes, frozen_floats, frozen_ints
+from .arrays import ByteArray, FloatArray, IntArray, frozen_bytes, frozen_floats, frozen_ints, units
 from .errors import BadInputError
+from .triangles import areas, unit_normals
 
 UpAxis = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
 
@@ -147,6 +148,8 @@ class Mesh:
             if values is not None:
                 set_field(self, name, freeze(values))
                 _check_shape(name, getattr(self, name).shape, (rows, columns) if columns else (rows,))
+                if not np.isfinite(getattr(self, name)).all():
+                    raise BadInputError(f"{name} holds values that are NaN or infinite")
         if self.up not in get_args(UpAxis):
             raise BadInputError(f"up axis '{self.up}': use one of {', '.join(get_args(UpAxis))}")
         if self.face_material.min() < 0 or self.face_material.max() >= len(self.materials):
@@ -160,17 +163,12 @@ class Mesh:
     @cached_property
     def face_areas(self) -> FloatArray:
         """(F,) areas, in square units."""
-        corners = self.triangles
-        cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        return frozen_floats(0.5 * np.linalg.norm(cross, axis=1))
+        return frozen_floats(areas(self.triangles))
 
     @cached_property
     def face_normals(self) -> FloatArray:
         """(F, 3) unit normals; zero for a face without area."""
-        corners = self.triangles
-        cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        length = np.linalg.norm(cross, axis=1, keepdims=True)
-        return frozen_floats(np.divide(cross, length, out=np.zeros_like(cross), where=length > 0))
+        return frozen_floats(unit_normals(self.triangles))
 
     @cached_property
     def bounds(self) -> FloatArray:
@@ -189,10 +187,19 @@ class Mesh:
         vertices = self.vertices @ matrix[:3, :3].T + matrix[:3, 3]
         normals = self.normals
         if normals is not None:
-            turned = normals @ np.linalg.inv(matrix[:3, :3])
-            length = np.linalg.norm(turned, axis=1, keepdims=True)
-            normals = np.divide(turned, length, out=np.zeros_like(turned), where=length > 0)
+            normals = units(normals @ np.linalg.inv(matrix[:3, :3]))
         return replace(self, vertices=vertices, normals=normals)
+
+    def on_vertices(self, source: IntArray, faces: IntArray) -> Mesh:
+        """The same surface on other vertices: (W,) the one each is copied from, and (F, 3) faces on them."""
+        return replace(
+            self,
+            vertices=self.vertices[source],
+            faces=faces,
+            normals=None if self.normals is None else self.normals[source],
+            uv=None if self.uv is None else self.uv[source],
+            colors=None if self.colors is None else self.colors[source],
+        )
 
 
 def canonical(

@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from .arrays import FloatArray, IntArray
+from .triangles import areas, unit_normals
 
 # A body has at least this spread in every direction: [m], and as a share of its largest spread, squared.
 _LEAST_SPREAD, _LEAST_RATIO = 1e-5, 1e-7
@@ -42,12 +43,9 @@ def solid_moments(triangles: FloatArray) -> FloatArray:
 
 def sheet_moments(triangles: FloatArray, thickness: FloatArray) -> FloatArray:
     """(F, 4, 4) moments of (F, 3, 3) triangles made (F,) thick [m], half of it on each side."""
-    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    length = np.linalg.norm(normals, axis=1)
-    normals = np.divide(normals, length[:, None], out=np.zeros_like(normals), where=length[:, None] > 0)
-    areas = length / 2
-    moments = simplex_moments(triangles, areas * thickness)
-    across = areas * thickness**3 / 12
+    area, normals = areas(triangles), unit_normals(triangles)
+    moments = simplex_moments(triangles, area * thickness)
+    across = area * thickness**3 / 12
     moments[:, :3, :3] += across[:, None, None] * np.einsum("ni,nj->nij", normals, normals)
     return moments
 

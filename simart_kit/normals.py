@@ -6,66 +6,77 @@ from dataclasses import replace
 
 import numpy as np
 
-from .arrays import FloatArray, IntArray
+from .arrays import UP, FloatArray, IntArray, units
 from .mesh import Mesh
+from .topology import weld
 
 CREASE_ANGLE = np.deg2rad(35.0)
+_MOST_FACES = 256  # around a position; neighbours in a fuller fan differ too little for smoothing to show
+_CORNERS_AT_ONCE = 1 << 16
 
 
 def with_normals(mesh: Mesh, crease: float = CREASE_ANGLE) -> Mesh:
     """The mesh with `normals`; vertices on a crease are split, faces keep their order.
 
     A corner's normal is the area-weighted mean of the faces around its position that lie within
-    `crease` [rad] of the corner's own face. Meshes that have normals come back as they are.
+    `crease` [rad] of the corner's own face; at a crease where very many faces meet, it is its own face's.
+    Meshes that have normals come back as they are.
     """
     if mesh.normals is not None:
         return mesh
-    corner_normals = _corner_normals(mesh, crease)
-    corners = mesh.faces.ravel()
-    # Corners of one vertex that agree to 1e-3 share it again.
-    keys = np.column_stack([corners, np.round(corner_normals * 1000).astype(np.int64)])
-    _, first, vertex = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    source = corners[first]
-    return replace(
-        mesh,
-        vertices=mesh.vertices[source],
-        faces=vertex.reshape(-1, 3),
-        normals=corner_normals[first],
-        uv=None if mesh.uv is None else mesh.uv[source],
-        colors=None if mesh.colors is None else mesh.colors[source],
-    )
+    normals = units(_corner_sums(mesh, crease), otherwise=UP)  # a face without area has no better one
+    corners = mesh.faces.ravel().astype(np.int64)
+    # Corners of one vertex that agree to 1e-3 share it again: a number for each vertex and rounded normal.
+    rounded = np.round(normals * 1000).astype(np.int64) @ [2001**2, 2001, 1]
+    _, first, vertex = np.unique(corners * 2001**3 + rounded, return_index=True, return_inverse=True)
+    return replace(mesh.on_vertices(corners[first], vertex.reshape(-1, 3)), normals=normals[first])
 
 
-def weld(vertices: FloatArray, tolerance: float) -> IntArray:
-    """(V,) ids such that vertices in one cell of a `tolerance` grid share an id."""
-    # A floor: a quotient of subnormal numbers would overflow.
-    cells = np.round((vertices - vertices.min(axis=0)) / max(tolerance, 1e-12)).astype(np.int64)
-    _, ids = np.unique(cells, axis=0, return_inverse=True)
-    return ids.reshape(-1).astype(np.int32)
+def _corner_sums(mesh: Mesh, crease: float) -> FloatArray:
+    """(3F, 3) sum of the area-weighted normals that each corner shares."""
+    position = weld(mesh.vertices, mesh.diagonal * 1e-7)[mesh.faces].ravel()
+    face = np.arange(len(position)) // 3
+    weighted = mesh.face_normals * mesh.face_areas[:, None]
+    sums = _summed(weighted[face], position)
+    # Faces within half the crease of a direction are within the crease of each other: no pairs to look at.
+    slant = np.einsum("ij,ij->i", units(sums)[position], mesh.face_normals[face])
+    creased = np.bincount(position, slant < np.cos(crease / 2)) > 0
+    crowded = np.bincount(position) > _MOST_FACES
+    shared = sums[position]
+    alone = np.flatnonzero((creased & crowded)[position])
+    shared[alone] = weighted[face[alone]]
+    faces_at = _FacesAt(position)
+    few = np.flatnonzero((creased & ~crowded)[position])
+    for start in range(0, len(few), _CORNERS_AT_ONCE):
+        corners = few[start : start + _CORNERS_AT_ONCE]
+        row, other = faces_at(position[corners])
+        own = face[corners][row]
+        near = np.einsum("ij,ij->i", mesh.face_normals[own], mesh.face_normals[other]) >= np.cos(crease)
+        near |= own == other
+        shared[corners] = _summed(weighted[other[near]], row[near])
+    return shared
 
 
-def _corner_normals(mesh: Mesh, crease: float) -> FloatArray:
-    """(3F, 3) unit normals, a corner each."""
-    corner, face = _corner_face_pairs(weld(mesh.vertices, mesh.diagonal * 1e-7)[mesh.faces])
-    normals, own = mesh.face_normals, corner // 3
-    near = np.einsum("ij,ij->i", normals[own], normals[face]) >= np.cos(crease)
-    keep = near | (own == face)
-    corner, weighted = corner[keep], (normals * mesh.face_areas[:, None])[face[keep]]
-    count = 3 * len(mesh.faces)
-    total = np.column_stack([np.bincount(corner, weighted[:, axis], count) for axis in range(3)])
-    length = np.linalg.norm(total, axis=1, keepdims=True)
-    up = np.broadcast_to([0.0, 0.0, 1.0], total.shape)  # a face without area has no better one
-    return np.where(length > 0, total / np.where(length > 0, length, 1.0), up)
+class _FacesAt:
+    """Looks up the faces around positions.
+
+    Args:
+        position: (3F,) id of every corner's.
+    """
+
+    def __init__(self, position: IntArray) -> None:
+        self._face = np.argsort(position, kind="stable") // 3
+        self._count = np.bincount(position)
+        self._start = np.cumsum(self._count) - self._count
+
+    def __call__(self, positions: IntArray) -> tuple[IntArray, IntArray]:
+        """Every pair of (N,) positions and a face around it: index of the former, and the face."""
+        count = self._count[positions]
+        row = np.repeat(np.arange(len(positions)), count)
+        within = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
+        return row, self._face[self._start[positions][row] + within]
 
 
-def _corner_face_pairs(positions: IntArray) -> tuple[IntArray, IntArray]:
-    """Every (corner, face) where the face has a corner at the same position; positions are (F, 3) ids."""
-    flat = positions.ravel()
-    order = np.argsort(flat, kind="stable")
-    counts = np.bincount(flat)
-    starts = np.cumsum(counts) - counts
-    reach = counts[flat]
-    corner = np.repeat(np.arange(len(flat)), reach)
-    within = np.arange(len(corner)) - np.repeat(np.cumsum(reach) - reach, reach)
-    face = order[np.repeat(starts[flat], reach) + within] // 3
-    return corner, face
+def _summed(vectors: FloatArray, group: IntArray) -> FloatArray:
+    """(G, 3) sums of (N, 3) vectors over groups that all have a member."""
+    return np.column_stack([np.bincount(group, vectors[:, axis]) for axis in range(3)])

@@ -31,19 +31,10 @@ class PosableMesh:
     def of(cls, asset: Asset) -> PosableMesh:
         """Prepare an asset once for many poses."""
         mesh = with_normals(asset.mesh)
-        assert mesh.normals is not None
         keys = mesh.faces.astype(np.int64) * len(asset.parts) + asset.face_part[:, None]
         used, faces = np.unique(keys, return_inverse=True)
-        source = used // len(asset.parts)
-        split = replace(
-            mesh,
-            vertices=mesh.vertices[source],
-            faces=faces.reshape(-1, 3),
-            normals=mesh.normals[source],
-            uv=None if mesh.uv is None else mesh.uv[source],
-            colors=None if mesh.colors is None else mesh.colors[source],
-        )
-        return cls(asset, split, (used % len(asset.parts)).astype(np.int32))
+        source, part = np.divmod(used, len(asset.parts))
+        return cls(asset, mesh.on_vertices(source, faces.reshape(-1, 3)), part.astype(np.int32))
 
     def posed(self, positions: Positions) -> Mesh:
         """The mesh with every part where joint positions [rad | m] take it."""

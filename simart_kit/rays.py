@@ -1,32 +1,55 @@
-"""First hits of rays on triangles, by embree."""
+"""Ray casting on the CPU by Embree: which triangle a ray meets first, and whether anything is in its way."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .arrays import FloatArray, IntArray
+from .arrays import BoolArray, Float32Array, FloatArray, IntArray
 
-_CHUNK = 1 << 18  # rays a call: embreex copies its inputs
+
+@dataclass(frozen=True, eq=False)
+class Hits:
+    """What each ray met first.
+
+    Attributes:
+        face: (N,) index of the triangle, -1 for none.
+        distance: (N,) in lengths of the direction; infinite where nothing was met.
+        weights: (N, 3) barycentric weights of the triangle's corners.
+    """
+
+    face: IntArray
+    distance: Float32Array
+    weights: Float32Array
 
 
 class Rays:
-    """Triangles that rays can be cast at.
+    """Casts rays at triangles. Embree works in float32, so it is given them centred and of unit size.
 
     Args:
         triangles: (F, 3, 3) corners.
+
+    Attributes:
+        center: (3,) middle of their bounding box.
+        size: its diagonal; 1 where that is 0.
     """
 
     def __init__(self, triangles: FloatArray) -> None:
         from embreex.mesh_construction import TriangleMesh
         from embreex.rtcore_scene import EmbreeScene
 
-        self._scene: Any = EmbreeScene()
-        if len(triangles):
-            # The scene does not keep the mesh object alive by itself.
-            self._mesh = TriangleMesh(self._scene, np.ascontiguousarray(triangles, dtype=np.float32))
+        corners = triangles.reshape(-1, 3) if len(triangles) else np.zeros((1, 3))
+        lower, upper = corners.min(axis=0), corners.max(axis=0)
+        self.center = (lower + upper) / 2
+        self.size = float(np.linalg.norm(upper - lower)) or 1.0
         self._empty = not len(triangles)
+        self._scene: Any = EmbreeScene()
+        if not self._empty:
+            # Kept, for the scene does not own it.
+            self._mesh = TriangleMesh(self._scene, self._local(triangles))
 
     def first(self, origins: FloatArray, directions: FloatArray) -> tuple[IntArray, FloatArray]:
         """First triangle that each ray meets, from either side.
@@ -38,16 +61,34 @@ class Rays:
         Returns:
             (N,) triangle, -1 for none, and (N,) distance in lengths of the direction, infinite for none.
         """
-        directions = np.broadcast_to(directions, origins.shape)
-        faces = np.full(len(origins), -1, dtype=np.int32)
-        distances = np.full(len(origins), np.inf)
-        for start in range(0, 0 if self._empty else len(origins), _CHUNK):
-            part = slice(start, start + _CHUNK)
-            found = self._scene.run(
-                np.ascontiguousarray(origins[part], dtype=np.float32),
-                np.ascontiguousarray(directions[part], dtype=np.float32),
-                output=True,
-            )
-            faces[part] = found["primID"]
-            distances[part] = np.where(found["primID"] >= 0, found["tfar"], np.inf)
-        return faces, distances
+        hits = self.hits(origins, directions)
+        return hits.face, hits.distance.astype(np.float64)
+
+    def hits(self, origins: ArrayLike, directions: ArrayLike) -> Hits:
+        """As `first`, with the place on the triangle."""
+        start = self._local(origins)
+        if self._empty:
+            nothing = np.zeros((len(start), 3), dtype=np.float32)
+            return Hits(np.full(len(start), -1, dtype=np.int32), nothing[:, 0] + np.inf, nothing)
+        found = self._scene.run(start, _towards(directions, start), query="INTERSECT", output=True)
+        face, u, v = found["primID"], found["u"], found["v"]
+        distance = np.where(face >= 0, found["tfar"], np.float32(np.inf)) * np.float32(self.size)
+        return Hits(face, distance, np.stack([1 - u - v, u, v], axis=1))
+
+    def blocked(self, origins: ArrayLike, directions: ArrayLike, reach: float | None = None) -> BoolArray:
+        """(N,) whether each ray meets a triangle within `reach` lengths of its direction, or anywhere."""
+        start = self._local(origins)
+        if self._empty:
+            return np.zeros(len(start), dtype=np.bool_)
+        limit = np.full(len(start), np.inf if reach is None else reach / self.size, dtype=np.float32)
+        found = self._scene.run(start, _towards(directions, start), dists=limit, query="OCCLUDED")
+        return np.asarray(found >= 0)
+
+    def _local(self, points: ArrayLike) -> Float32Array:
+        values = np.asarray(points, dtype=np.result_type(points, np.float32))
+        moved = (values - self.center.astype(values.dtype)) * values.dtype.type(1 / self.size)
+        return np.ascontiguousarray(moved, dtype=np.float32)
+
+
+def _towards(directions: ArrayLike, start: Float32Array) -> Float32Array:
+    return np.ascontiguousarray(np.broadcast_to(directions, start.shape), dtype=np.float32)

@@ -14,14 +14,14 @@ import numpy as np
 
 from .arrays import ByteArray, FloatArray, IntArray
 from .camera import Camera, Side, isometric
+from .colors import Color
 from .drawing.appearance import Appearance
-from .drawing.legend import Color
 from .drawing.lit_mesh import LAYERS, LitMesh
 from .drawing.pixel_rays import Frame, PixelRays
-from .drawing.raycast import Caster
 from .mesh import Mesh
 from .normals import with_normals
-from .srgb import linear_to_srgb, srgb_to_linear
+from .rays import Rays
+from .srgb import encoded, srgb_to_linear
 
 if TYPE_CHECKING:
     from .asset import Asset
@@ -60,14 +60,13 @@ def render(
     else:
         color = color + (1 - opacity) * srgb_to_linear(np.array(background) / 255.0)
         alpha = np.ones_like(opacity)
-    picture = np.concatenate([linear_to_srgb(color), alpha], axis=-1)
-    return np.asarray(np.rint(np.clip(picture, 0, 1) * 255), dtype=np.uint8)
+    return encoded(np.concatenate([color, alpha], axis=-1))
 
 
 def face_ids(mesh: Mesh, camera: Camera, width: int, height: int) -> IntArray:
     """(height, width) int32 index of the face seen in the middle of each pixel, -1 for none."""
     mesh = with_normals(mesh)
-    caster, look = Caster(mesh.vertices, mesh.faces), Appearance(mesh)
+    caster, look = Rays(mesh.triangles), Appearance(mesh)
     frame = Frame(camera, width, height)
     tops = range(0, height, _ROWS_AT_ONCE)
     bands = [range(top, min(top + _ROWS_AT_ONCE, height)) for top in tops]
@@ -90,11 +89,11 @@ def write_preview(asset: Asset, path: Path) -> Path:
     return path
 
 
-def _ids(caster: Caster, look: Appearance, rays: PixelRays) -> IntArray:
+def _ids(caster: Rays, look: Appearance, rays: PixelRays) -> IntArray:
     shape = (len(rays.rows), rays.frame.width)
     result = np.full(shape[0] * shape[1], -1, dtype=np.int32)
     for _ in range(LAYERS if look.translucent else 1):
-        hits = caster.first(rays.origins, rays.directions)
+        hits = caster.hits(rays.origins, rays.directions)
         met = np.flatnonzero(hits.face >= 0)
         opacity = look.colors(hits.face[met], hits.weights[met], np.zeros(len(met), np.float32))[:, 3]
         there, absent = met[opacity >= _FAINT], met[opacity < _FAINT]

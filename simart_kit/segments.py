@@ -8,7 +8,7 @@ import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray, frozen_ints
 from .mesh import Mesh
-from .normals import weld
+from .topology import connected, neighbours, touching, unique_rows, weld
 
 WELD_TOLERANCE = 1e-5  # of the diagonal: far below any gap that is modelled, above single precision's noise
 CREASE_ANGLE = np.deg2rad(25.0)
@@ -25,7 +25,7 @@ class Segments:
         vertex: (V,) welded id of every vertex of the mesh.
         count: number of segments.
         duplicates: faces that repeat an earlier one; they share its segment.
-        degenerates: faces without area; they share the segment of a neighbour.
+        degenerates: faces without area; they join nothing, and share the largest segment that they touch.
         patches: whether a fused component was cut at its creases.
     """
 
@@ -56,29 +56,30 @@ def find_segments(mesh: Mesh, crease: float = CREASE_ANGLE, node_hint: bool = Fa
     vertex = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE)
     corners = vertex[mesh.faces]
     degenerate = _degenerate(mesh, corners)
-    first = _first_of_duplicates(corners)
+    once, same = unique_rows(np.sort(corners, axis=1))
+    first = once[same]
     duplicate = (first != np.arange(len(corners))) & ~degenerate
+    kept = np.flatnonzero(~degenerate & ~duplicate)
     keys = corners
     if node_hint and mesh.face_node is not None:
         keys = corners + int(vertex.max() + 1) * mesh.face_node[:, None]
-    labels = _components(keys)
-    patches = False
-    kept = np.flatnonzero(~degenerate & ~duplicate)
-    fused = _fused_component(mesh, labels, kept)
+    found = touching(keys[kept])
+    fused = _fused_component(mesh, found, kept)
     if fused is not None:
-        inside = kept[labels[kept] == fused]
-        labels[inside] = labels.max() + 1 + _patches(mesh.face_normals[inside], corners[inside], crease)
-        patches = True
-        labels[degenerate] = _neighbour_labels(labels, corners, degenerate, kept)
+        inside = np.flatnonzero(found == fused)
+        faces = kept[inside]
+        found[inside] = found.max() + 1 + _patches(mesh.face_normals[faces], corners[faces], crease)
+    labels = np.zeros(len(corners), dtype=np.int64)
+    labels[kept] = _by_area(found, mesh.face_areas[kept])
+    labels[degenerate] = _largest_beside(labels, corners, degenerate, kept)
     labels[duplicate] = labels[first[duplicate]]
-    labels = _by_area(labels, mesh.face_areas)
     return Segments(
         frozen_ints(labels),
         vertex,
         int(labels.max()) + 1,
         int(duplicate.sum()),
         int(degenerate.sum()),
-        patches,
+        fused is not None,
     )
 
 
@@ -88,58 +89,36 @@ def _degenerate(mesh: Mesh, corners: IntArray) -> BoolArray:
     return np.asarray((a == b) | (b == c) | (c == a) | tiny)
 
 
-def _first_of_duplicates(corners: IntArray) -> IntArray:
-    """(F,) index of the first face with the same corners, in whatever order."""
-    _, first, same = np.unique(np.sort(corners, axis=1), axis=0, return_index=True, return_inverse=True)
-    return np.asarray(first[same.reshape(-1)])
-
-
-def _components(corners: IntArray) -> IntArray:
-    """(F,) label of faces connected by shared vertices.
-
-    Not by shared edges: edges with more than two faces, as duplicates make them, would cut everything apart.
-    """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    ids, compact = np.unique(corners, return_inverse=True)
-    a, b, c = compact.reshape(-1, 3).T
-    links = coo_array((np.ones(2 * len(a)), (np.r_[a, b], np.r_[b, c])), shape=(len(ids), len(ids)))
-    _, label = connected_components(links, directed=False)
-    return np.asarray(label[a], dtype=np.int64)
-
-
 def _fused_component(mesh: Mesh, labels: IntArray, kept: IntArray) -> int | None:
-    areas = np.bincount(labels[kept], mesh.face_areas[kept])
+    """The one of (K,) `labels` of the `kept` faces that is nearly the whole object."""
+    areas = np.bincount(labels, mesh.face_areas[kept], minlength=1)
     largest = int(areas.argmax())
-    corners = mesh.triangles[kept[labels[kept] == largest]].reshape(-1, 3)
+    corners = mesh.triangles[kept[labels == largest]].reshape(-1, 3)
+    if not len(corners):
+        return None
     extent, whole = np.ptp(corners, axis=0), mesh.bounds[1] - mesh.bounds[0]
     spans = bool((extent >= _FUSED_EXTENT * whole).all())
     return largest if spans and areas[largest] >= _FUSED_AREA * areas.sum() else None
 
 
 def _patches(normals: FloatArray, corners: IntArray, crease: float) -> IntArray:
-    """(F,) label of faces connected across edges flatter than `crease`."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
+    """(F,) label of faces connected across edges flatter than `crease`.
 
-    edges = np.sort(corners[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    face = np.repeat(np.arange(len(corners)), 3)
-    order = np.lexsort((edges[:, 1], edges[:, 0]))
-    edges, face = edges[order], face[order]
-    same = (edges[1:] == edges[:-1]).all(axis=1)
-    left, right = face[:-1][same], face[1:][same]
+    An edge with more than two faces, as where a board stands on another, bounds them all.
+    """
+    edge, left, right = neighbours(corners)
     flat = np.einsum("ij,ij->i", normals[left], normals[right]) >= np.cos(crease)
-    links = coo_array((np.ones(int(flat.sum())), (left[flat], right[flat])), shape=(len(corners),) * 2)
-    return np.asarray(connected_components(links, directed=False)[1], dtype=np.int64)
+    joined = flat & (np.bincount(edge)[edge] == 1)
+    return connected(len(corners), left[joined], right[joined])
 
 
-def _neighbour_labels(labels: IntArray, corners: IntArray, wanted: BoolArray, kept: IntArray) -> IntArray:
-    """Labels for faces without area: that of a kept face at one of their vertices."""
-    at_vertex = np.full(int(corners.max()) + 1, -1, dtype=np.int64)
-    at_vertex[corners[kept].ravel()] = np.repeat(labels[kept], 3)
-    found = at_vertex[corners[wanted]].max(axis=1)
-    return np.where(found >= 0, found, labels[wanted])
+def _largest_beside(labels: IntArray, corners: IntArray, wanted: BoolArray, kept: IntArray) -> IntArray:
+    """Labels for faces without area: the lowest at one of their vertices, 0 where there is none."""
+    none = len(labels)
+    at_vertex = np.full(int(corners.max()) + 1, none, dtype=np.int64)
+    np.minimum.at(at_vertex, corners[kept].ravel(), np.repeat(labels[kept], 3))
+    found = at_vertex[corners[wanted]].min(axis=1)
+    return np.where(found < none, found, 0)
 
 
 def _by_area(labels: IntArray, areas: FloatArray) -> IntArray:

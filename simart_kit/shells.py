@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray
-from .normals import weld
+from .topology import connected, edges, touching, unique_rows, weld
+from .triangles import areas
 
 WELD_TOLERANCE = 1e-6, 1e-12  # of the diagonal, and [m] at least
 _FLAT = 1e-7  # volume / area^1.5 of a closed piece that encloses nothing, such as the two sides of a sheet
@@ -46,7 +47,7 @@ class Shells:
     @property
     def areas(self) -> FloatArray:
         """(S,) area of each shell [m^2]."""
-        return np.asarray(np.bincount(self.face_shell, _areas(self.triangles), self.count))
+        return np.asarray(np.bincount(self.face_shell, areas(self.triangles), self.count))
 
     def split(self) -> list[IntArray]:
         """Indices of the faces of each shell."""
@@ -68,16 +69,16 @@ def find_shells(vertices: FloatArray, faces: IntArray) -> Shells:
     again by shared vertices, since solids that share a wall are closed only together.
     """
     points, corners = _welded(vertices, faces)
-    edge, way = _edges(corners)
+    edge, way = edges(corners), np.where(corners < corners[:, [1, 2, 0]], 1, -1)
     sheet, flip = _sheets(edge, way)
     corners = np.where(flip[:, None], corners[:, ::-1], corners)
     way = np.where(flip[:, None], -way, way)
     alone = (_closed(edge, way, sheet) & _bounding(points[corners], sheet))[sheet]
     rest = np.flatnonzero(~alone)
-    group = _touching(corners[rest])
+    group = touching(corners[rest])
     together = (_closed(edge[rest], way[rest], group) & _bounding(points[corners[rest]], group))[group]
     sides = np.flatnonzero(~together)
-    once = sides[_first_of_each(np.sort(corners[rest[sides]], axis=1))]  # a sheet with two sides is one
+    once = sides[unique_rows(np.sort(corners[rest[sides]], axis=1))[0]]  # a sheet with two sides is one
     kept = np.sort(np.r_[np.flatnonzero(together), once])
     label = np.r_[sheet[alone], sheet.max(initial=-1) + 1 + group[kept]]
     _, shell = np.unique(label, return_inverse=True)
@@ -99,31 +100,7 @@ def _welded(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray
     corners = corners[(a != b) & (b != c) & (c != a)]
     turn = corners.argmin(axis=1)
     same = np.take_along_axis(corners, (turn[:, None] + np.arange(3)) % 3, axis=1)
-    return points[first], corners[_first_of_each(same)]
-
-
-def _areas(triangles: FloatArray) -> FloatArray:
-    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    return np.asarray(np.linalg.norm(cross, axis=1) / 2)
-
-
-def _first_of_each(rows: IntArray) -> IntArray:
-    """Indices of the first of equal (N, 3) rows, ascending."""
-    pair = _pair_keys(rows[:, 0], rows[:, 1])
-    return np.sort(np.unique(_pair_keys(pair, rows[:, 2]), return_index=True)[1])
-
-
-def _pair_keys(a: IntArray, b: IntArray) -> IntArray:
-    """(N,) ids 0.. that are equal where both `a` and `b` are."""
-    base = int(b.max(initial=0)) + 1
-    return np.asarray(np.unique(a.astype(np.int64) * base + b, return_inverse=True)[1].reshape(-1))
-
-
-def _edges(corners: IntArray) -> tuple[IntArray, IntArray]:
-    """(F, 3) ids of the faces' edges, and the way (+1 or -1) in which the face walks each."""
-    start, end = corners, corners[:, [1, 2, 0]]
-    edge = _pair_keys(np.minimum(start, end).ravel(), np.maximum(start, end).ravel())
-    return edge.reshape(-1, 3), np.where(start < end, 1, -1)
+    return points[first], corners[np.sort(unique_rows(same)[0])]
 
 
 def _sheets(edge: IntArray, way: IntArray) -> tuple[IntArray, BoolArray]:
@@ -140,7 +117,7 @@ def _sheets(edge: IntArray, way: IntArray) -> tuple[IntArray, BoolArray]:
     one, two = order[starts], order[starts + 1]
     against = np.where(way.ravel()[one] == way.ravel()[two], count, 0)
     one, two = one // 3, two // 3
-    cover = _components(2 * count, np.r_[one, one + count], np.r_[two + against, two + count - against])
+    cover = connected(2 * count, np.r_[one, one + count], np.r_[two + against, two + count - against])
     as_is, turned = cover[:count], cover[count:]
     sheet = np.unique(np.minimum(as_is, turned), return_inverse=True)[1].reshape(-1)
     flip = as_is > turned
@@ -148,26 +125,9 @@ def _sheets(edge: IntArray, way: IntArray) -> tuple[IntArray, BoolArray]:
     return sheet, np.asarray((flip ^ mostly[sheet]) & (as_is != turned))
 
 
-def _touching(corners: IntArray) -> IntArray:
-    """(F,) label of faces joined by shared vertices."""
-    face = np.repeat(np.arange(len(corners)), 3)
-    _, vertex = np.unique(corners.ravel(), return_inverse=True)
-    count = len(corners) + int(vertex.max(initial=-1)) + 1
-    labels = _components(count, face, len(corners) + vertex)[: len(corners)]
-    return np.unique(labels, return_inverse=True)[1].reshape(-1)
-
-
-def _components(count: int, one: IntArray, two: IntArray) -> IntArray:
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    links = coo_array((np.ones(len(one), dtype=np.int8), (one, two)), shape=(count, count))
-    return np.asarray(connected_components(links, directed=False)[1], dtype=np.int64)
-
-
 def _closed(edge: IntArray, way: IntArray, label: IntArray) -> BoolArray:
     """(S,) whether the (F, 3) edges of a label's faces are walked as often one way as the other."""
-    face_edge = _pair_keys(np.repeat(label, 3), edge.ravel())
+    _, face_edge = unique_rows(np.column_stack([np.repeat(label, 3), edge.ravel()]))
     unbalanced = np.bincount(face_edge, way.ravel()) != 0
     count = int(label.max(initial=-1)) + 1
     return np.asarray(np.bincount(np.repeat(label, 3), unbalanced[face_edge], count) == 0)
@@ -177,5 +137,5 @@ def _bounding(triangles: FloatArray, label: IntArray) -> BoolArray:
     """(S,) whether the (F, 3, 3) triangles of a label enclose anything, if they are closed."""
     volumes = np.einsum("ni,ni->n", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6
     count = int(label.max(initial=-1)) + 1
-    area = np.bincount(label, _areas(triangles), count)
+    area = np.bincount(label, areas(triangles), count)
     return np.asarray(np.abs(np.bincount(label, volumes, count)) > _FLAT * area**1.5)

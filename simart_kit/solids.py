@@ -10,6 +10,7 @@ from .arrays import BoolArray, FloatArray, IntArray
 from .hulls import hull_of
 from .moments import moved, sheet_moments, solid_moments, summed
 from .shells import Shells, find_shells
+from .triangles import crosses
 
 THICKNESS = 0.01  # [m] of the board that an open surface stands for
 _SLENDERNESS = 0.1  # a sheet is thinner than this share of the square root of its area
@@ -118,7 +119,7 @@ def _containments(shells: Shells, ids: IntArray, volumes: FloatArray) -> list[tu
 
 def _point_inside(triangles: FloatArray) -> FloatArray:
     """(3,) a point just below the largest of a closed shell's (F, 3, 3) triangles."""
-    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    cross = crosses(triangles)
     volume = np.einsum("ni,ni->", triangles[:, 0] - triangles[0, 0], cross)
     length = np.linalg.norm(cross, axis=1)
     largest = int(length.argmax())

@@ -9,7 +9,7 @@ import numpy as np
 from .arrays import ByteArray, FloatArray, IntArray, frozen_bytes, frozen_floats, frozen_ints
 from .asset import Asset
 from .kinematics import rest_origin
-from .mesh import Mesh, VisualMaterial
+from .mesh import Image, Mesh, VisualMaterial
 from .normals import with_normals
 
 
@@ -38,6 +38,17 @@ class Surface:
     colors: ByteArray | None
     faces: IntArray
     source_faces: IntArray
+
+    @property
+    def picture(self) -> Image | None:
+        """The texture of its base colour; None also where it has no coordinates to read one by."""
+        return None if self.uv is None else self.material.base_color_image
+
+    @property
+    def translucent(self) -> bool:
+        """Whether its texture, or without one its vertex colours, lets light through."""
+        rgba = self.picture.pixels if self.picture else self.colors
+        return rgba is not None and bool(rgba[..., 3].min() < 255)
 
 
 def asset_surfaces(asset: Asset) -> dict[str, tuple[Surface, ...]]:

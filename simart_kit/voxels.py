@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .arrays import BoolArray, FloatArray, IntArray, Vec3, frozen_ints, vec3
+from .triangles import crosses
 
 # Cell counts and keys pass 32 bits from 1291 cells an edge on.
 LongArray = NDArray[np.int64]
@@ -102,7 +103,7 @@ def voxelise(triangles: FloatArray, frame: GridFrame) -> VoxelGrid:
     inside = np.flatnonzero((first <= last).all(axis=1))
     corners, first, last = corners[inside], first[inside], last[inside]
     # The axis that a triangle faces most is put last, so that its columns run along z.
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal = crosses(corners)
     facing = np.abs(normal).argmax(axis=1)
     keys = [np.zeros(0, dtype=np.int64)]
     for axis in range(3):
@@ -152,7 +153,7 @@ def _columns(corners: FloatArray, first: FloatArray, last: FloatArray) -> tuple[
     size = (last - first + 1.0).astype(np.int64)
     triangle, rank = _repeat(size[:, 0] * size[:, 1])
     corner = first[triangle, :2] + np.stack(np.divmod(rank, size[triangle, 1]), axis=1)
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal = crosses(corners)
     slope = np.divide(
         -normal[:, :2], normal[:, 2:], out=np.zeros_like(first[:, :2]), where=normal[:, 2:] != 0
     )

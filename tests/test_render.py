@@ -19,7 +19,6 @@ from simart_kit.drawing import lit_mesh
 from simart_kit.drawing.joint_marks import joint_strokes
 from simart_kit.drawing.legend import legend, part_entries, summary
 from simart_kit.drawing.preview import PANEL, preview_png
-from simart_kit.drawing.raycast import Caster
 from simart_kit.kinematics import opened, rest_to_posed, rotation
 from simart_kit.mesh import Image, Mesh, VisualMaterial
 from simart_kit.normals import with_normals
@@ -312,21 +311,6 @@ def test_isometric_view_is_252_pixels_on_white() -> None:
     assert picture.shape == (252, 252, 3)
     assert (picture[[0, 0, -1, -1], [0, -1, 0, -1]] == 255).all()
     assert 0.2 < (picture < 250).any(axis=2).mean() < 0.8
-
-
-def test_caster_finds_distance_face_and_weights() -> None:
-    vertices = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]])
-    caster = Caster(vertices, np.array([[0, 1, 2]]))
-    origins = np.array([[0.5, 0.3, 4.0], [1.9, 1.9, 4.0]])
-    down = np.array([[0.0, 0.0, -1.0]] * 2)
-
-    hits = caster.first(origins, down)
-
-    assert hits.face.tolist() == [0, -1]
-    assert hits.distance[0] == pytest.approx(4.0, rel=1e-6)
-    np.testing.assert_allclose(hits.weights[0] @ vertices, [0.5, 0.3, 0.0], atol=1e-6)
-    assert caster.blocked(origins, down).tolist() == [True, False]
-    assert caster.blocked(origins, down, reach=3.9).tolist() == [False, False]
 
 
 def test_a_moved_door_changes_the_picture_where_the_door_goes() -> None:

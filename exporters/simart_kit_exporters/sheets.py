@@ -9,6 +9,7 @@ import numpy as np
 from simart_kit.arrays import FloatArray, IntArray, frozen_floats, frozen_ints
 from simart_kit.asset import ConvexMesh
 from simart_kit.surfaces import Surface
+from simart_kit.triangles import areas, crosses
 
 # MuJoCo refuses meshes of less than 1e-15 m^3; MIN_AREA is a speck of 0.03 mm, too small to see or to back.
 MIN_VOLUME = 1e-14
@@ -19,7 +20,7 @@ THICKNESS = 1e-4
 
 def is_speck(surface: Surface) -> bool:
     """Whether a surface is too small to draw."""
-    return float(_areas(surface.vertices[surface.faces]).sum()) < MIN_AREA
+    return float(areas(surface.vertices[surface.faces]).sum()) < MIN_AREA
 
 
 def backed(surface: Surface) -> Surface:
@@ -52,19 +53,14 @@ def _two_sided(faces: IntArray, shift: int) -> IntArray:
 def _step_back(vertices: FloatArray, faces: IntArray) -> FloatArray | None:
     """(3,) way to the back of a surface [m]; None when it has volume."""
     corners = vertices[faces]
-    areas = _areas(corners)
+    cross, area = crosses(corners), areas(corners)
+    total = max(float(area.sum()), MIN_AREA)
     centroids = corners.mean(axis=1)
-    middle = areas @ centroids / max(areas.sum(), MIN_AREA)
+    middle = area @ centroids / total
     # The volume of the pyramids from the middle to every face, as MuJoCo measures open meshes.
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     volume = np.abs(np.einsum("ij,ij->i", cross, centroids - middle)).sum() / 6
     diagonal = float(np.linalg.norm(np.ptp(corners.reshape(-1, 3), axis=0)))
-    if volume > max(MIN_VOLUME, 1e-9 * diagonal * areas.sum()):
+    if volume > max(MIN_VOLUME, 1e-9 * diagonal * area.sum()):
         return None
-    normal = cross[areas.argmax()] / max(2 * areas.max(), MIN_AREA)
-    return np.asarray(-normal * max(THICKNESS * diagonal, 6 * MIN_VOLUME / max(areas.sum(), MIN_AREA)))
-
-
-def _areas(corners: FloatArray) -> FloatArray:
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return np.asarray(np.linalg.norm(cross, axis=1) / 2)
+    normal = cross[area.argmax()] / max(2 * area.max(), MIN_AREA)
+    return np.asarray(-normal * max(THICKNESS * diagonal, 6 * MIN_VOLUME / total))

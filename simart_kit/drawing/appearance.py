@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import BoolArray, FloatArray, IntArray
+from ..arrays import BoolArray, Float32Array, FloatArray, IntArray
 from ..mesh import Mesh
-from ..srgb import srgb_to_linear
-from .raycast import Float32Array
-from .texture import Texture, decoded
+from ..srgb import decoded, srgb_to_linear
+from .texture import Texture
 
 
 class Appearance:

@@ -7,23 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..asset import Asset, Joint
+from ..colors import Color, part_color
 from ..kinematics import ordered_joints
-
-Color = tuple[int, int, int]
-
-PALETTE: tuple[Color, ...] = (
-    (37, 116, 232),
-    (242, 138, 18),
-    (22, 163, 98),
-    (226, 61, 98),
-    (133, 84, 224),
-    (8, 166, 190),
-    (176, 142, 8),
-    (208, 80, 180),
-    (110, 160, 30),
-    (150, 98, 62),
-)
-"""sRGB, told apart by hue and on light ground; used again from the start when there are more joints."""
 
 
 @dataclass(frozen=True)
@@ -43,11 +28,7 @@ class Entry:
 
 def legend(asset: Asset) -> tuple[Entry, ...]:
     """An entry for every joint that moves, in the asset's order; none for a static object."""
-    moving = [j for j in asset.joints if j.moves]
-    return tuple(
-        Entry(j, PALETTE[i % len(PALETTE)], f"{j.child}: {j.kind}{_range(j)}{', flagged' * bool(j.flags)}")
-        for i, j in enumerate(moving)
-    )
+    return tuple(_entry(asset, joint) for joint in asset.joints if joint.moves)
 
 
 def part_entries(asset: Asset) -> dict[str, Entry]:
@@ -67,6 +48,11 @@ def summary(asset: Asset) -> str:
     if not moving:
         return f"{asset.name}, static: nothing moves"
     return f"{asset.name}: {_count(len(asset.parts), 'part')}, {_count(moving, 'joint')}"
+
+
+def _entry(asset: Asset, joint: Joint) -> Entry:
+    text = f"{joint.child}: {joint.kind}{_range(joint)}{', flagged' * bool(joint.flags)}"
+    return Entry(joint, part_color(asset.part_index(joint.child)), text)
 
 
 def _count(number: int, noun: str) -> str:

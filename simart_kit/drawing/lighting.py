@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import Float32Array, FloatArray, IntArray
 from ..camera import Camera
+from ..rays import Rays
 from .appearance import normalized
-from .raycast import Caster, Float32Array
 from .tiles import TILE, tile_means
 
 _SKY_RAYS = 2
@@ -53,12 +53,12 @@ class Lighting:
         reach: how far a surface hides the sky from others [m].
     """
 
-    caster: Caster
+    caster: Rays
     key: Float32Array
     reach: float
 
     @classmethod
-    def of(cls, caster: Caster, camera: Camera) -> Lighting:
+    def of(cls, caster: Rays, camera: Camera) -> Lighting:
         """The key light stands above and left of the camera, so that every view is lit alike."""
         right, _, forward = camera.axes
         back = -forward * [1.0, 1.0, 0.0]

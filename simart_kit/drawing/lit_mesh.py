@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import Float32Array, FloatArray, IntArray
 from ..mesh import Mesh
+from ..rays import Hits, Rays
 from .appearance import Appearance, look_alike, opaque_faces
 from .lighting import Lighting, Points
 from .pixel_rays import SUBPIXELS, Frame, PixelRays
-from .raycast import Caster, Float32Array, Hits
 from .tiles import TILE
 
 LAYERS = 6
@@ -31,10 +31,10 @@ class LitMesh:
     def __init__(self, mesh: Mesh, frame: Frame, paint: FloatArray | None, ground: float | None) -> None:
         self._frame, self._ground = frame, ground
         self._look = Appearance(mesh, paint)
-        self._caster = Caster(mesh.vertices, mesh.faces)
+        self._caster = Rays(mesh.triangles)
         self._surface = look_alike(mesh, paint)
         opaque = opaque_faces(mesh)
-        shadows = self._caster if opaque.all() else Caster(mesh.vertices, mesh.faces[opaque])
+        shadows = self._caster if opaque.all() else Rays(mesh.triangles[opaque])
         self._lighting = Lighting.of(shadows, frame.camera)
 
     def picture(self) -> FloatArray:
@@ -50,7 +50,7 @@ class LitMesh:
         result = np.zeros((len(first.pixel), 4), dtype=np.float32)
         at = np.arange(len(first.pixel))
         for _ in range(LAYERS if self._look.translucent else 1):
-            hits = self._caster.first(rays.origins, rays.directions)
+            hits = self._caster.hits(rays.origins, rays.directions)
             result[at] += (1 - result[at, 3:]) * self._layer(rays, hits)
             on = np.flatnonzero((hits.face >= 0) & (result[at, 3] < 0.98))
             rays, at = rays.beyond(hits, on, 1e-5 * self._caster.size), at[on]

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import BoolArray, FloatArray, IntArray
+from ..arrays import BoolArray, Float32Array, FloatArray, IntArray
 from ..camera import Camera
-from .raycast import Caster, Float32Array, Hits
+from ..rays import Hits, Rays
 
 # Where the four rays of a pixel pass: a turned 2 x 2 grid smooths upright and level edges best.
 SUBPIXELS = np.array([[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]])
@@ -50,10 +50,10 @@ class PixelRays:
         return cls._through(frame, rows, pixel, np.zeros_like(pixel), np.array([[0.5, 0.5]]))
 
     @classmethod
-    def adaptive(cls, frame: Frame, rows: range, caster: Caster, surface: IntArray) -> PixelRays:
+    def adaptive(cls, frame: Frame, rows: range, caster: Rays, surface: IntArray) -> PixelRays:
         """One ray a pixel, and four where a neighbour shows another of the (F,) `surface` ids of faces."""
         single = cls.single(frame, rows)
-        face = caster.first(single.origins, single.directions).face
+        face = caster.hits(single.origins, single.directions).face
         shown = np.where(face >= 0, surface[face], -1).reshape(len(rows), frame.width)
         border = _borders(shown).ravel()
         pixel = np.repeat(np.flatnonzero(border), len(SUBPIXELS))

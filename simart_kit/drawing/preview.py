@@ -10,14 +10,15 @@ import numpy as np
 from ..arrays import FloatArray
 from ..asset import Asset
 from ..camera import Camera, framed
+from ..colors import Color
 from ..kinematics import opened, rest_to_posed
 from ..mesh import Mesh
 from ..posing import PosableMesh
+from ..rays import Rays
 from ..render import render
 from .joint_marks import Stroke, joint_strokes
-from .legend import Color, Entry, legend, part_entries, summary
+from .legend import Entry, legend, part_entries, summary
 from .pixel_rays import Frame, PixelRays
-from .raycast import Caster
 
 if TYPE_CHECKING:
     from PIL import Image, ImageDraw, ImageFont
@@ -81,16 +82,16 @@ def _view(mesh: Mesh, camera: Camera, ground: float, paint: FloatArray | None) -
 def _camera(closed: Mesh, opened_mesh: Mesh, points: FloatArray) -> Camera:
     """The first of the views that shows about as much of what opening reveals as any."""
     cameras = [framed(points, a, _ELEVATION, aspect=PANEL[0] / PANEL[1]) for a in _AZIMUTHS]
-    casters = [Caster(m.vertices, m.faces) for m in (closed, opened_mesh)]
+    casters = [Rays(m.triangles) for m in (closed, opened_mesh)]
     revealed = [_revealed(casters[0], casters[1], camera) for camera in cameras]
     return next(c for c, r in zip(cameras, revealed, strict=True) if 1.15 * r >= max(revealed))
 
 
-def _revealed(closed: Caster, opened_caster: Caster, camera: Camera) -> int:
+def _revealed(closed: Rays, opened_caster: Rays, camera: Camera) -> int:
     """Pixels of the open object that show faces which are hidden while it is closed."""
     frame = Frame(camera, PANEL[0] // 4, PANEL[1] // 4)
     rays = PixelRays.single(frame, range(frame.height))
-    before, after = (c.first(rays.origins, rays.directions).face for c in (closed, opened_caster))
+    before, after = (c.hits(rays.origins, rays.directions).face for c in (closed, opened_caster))
     return int((~np.isin(after, before)).sum())
 
 

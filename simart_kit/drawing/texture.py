@@ -4,19 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import ByteArray
+from ..arrays import ByteArray, Float32Array
 from ..mesh import Image
-from ..srgb import srgb_to_linear
-from .raycast import Float32Array
-
-_BYTE_TO_LINEAR = srgb_to_linear(np.arange(256) / 255.0).astype(np.float32)
-
-
-def decoded(rgba: ByteArray) -> Float32Array:
-    """(N, 4) linear RGBA of sRGB bytes; opacity is linear already."""
-    linear: Float32Array = _BYTE_TO_LINEAR[rgba]
-    linear[:, 3] = rgba[:, 3] * np.float32(1 / 255)
-    return linear
+from ..srgb import decoded
 
 
 class Texture:

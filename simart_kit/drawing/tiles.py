@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import BoolArray, IntArray
-from .raycast import Float32Array
+from ..arrays import BoolArray, Float32Array, IntArray
 
 TILE = 4
 """Side of a tile [pixels]; averages reach as far."""

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray, IntArray
+from simart_kit.arrays import UP, FloatArray, IntArray, units
 from simart_kit.asset import ConvexMesh
 from simart_kit.surfaces import Surface
+from simart_kit.triangles import crosses
 
 from .looks import linear_colors, reads_colors
 
@@ -38,8 +39,8 @@ def define_hull(stage: Usd.Stage, path: Sdf.Path, shape: ConvexMesh, origin: Flo
     mesh = define_mesh(stage, path, vertices, shape.faces)
     mesh.CreatePurposeAttr(UsdGeom.Tokens.guide)
     # A normal a face: viewers that do show guides then show flat sides.
-    a, b, c = (vertices[shape.faces[:, corner]] for corner in range(3))
-    mesh.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(_unit(np.cross(b - a, c - a)).astype(np.float32)))
+    normals = units(crosses(vertices[shape.faces]), otherwise=UP)
+    mesh.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(normals.astype(np.float32)))
     mesh.SetNormalsInterpolation(UsdGeom.Tokens.uniform)
     return mesh
 
@@ -60,10 +61,3 @@ def define_surface(stage: Usd.Stage, path: Sdf.Path, surface: Surface) -> UsdGeo
         mesh.CreateDisplayColorPrimvar(UsdGeom.Tokens.vertex).Set(Vt.Vec3fArray.FromNumpy(colors[:, :3]))
         mesh.CreateDisplayOpacityPrimvar(UsdGeom.Tokens.vertex).Set(Vt.FloatArray.FromNumpy(colors[:, 3]))
     return mesh
-
-
-def _unit(vectors: FloatArray) -> FloatArray:
-    """(N, 3) vectors of length 1; those without a length point up."""
-    length = np.linalg.norm(vectors, axis=1, keepdims=True)
-    up = np.broadcast_to([0.0, 0.0, 1.0], vectors.shape)
-    return np.where(length > 0, vectors / np.where(length > 0, length, 1.0), up)

@@ -8,7 +8,7 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray
 from simart_kit.mesh import VisualMaterial
-from simart_kit.srgb import srgb_to_linear
+from simart_kit.srgb import decoded
 from simart_kit.surfaces import Surface
 
 
@@ -20,30 +20,17 @@ def by_material(surfaces: Iterable[Surface]) -> dict[VisualMaterial, list[Surfac
     return result
 
 
-def reads_picture(surface: Surface) -> bool:
-    """Whether the base colour comes from a texture."""
-    return surface.uv is not None and surface.material.base_color_image is not None
-
-
 def reads_colors(surface: Surface) -> bool:
     """Whether the base colour comes from the vertices."""
-    return surface.colors is not None and not reads_picture(surface)
+    return surface.colors is not None and surface.picture is None
 
 
 def is_transparent(surface: Surface) -> bool:
     """Whether light passes through any of the surface."""
-    alphas = [surface.material.base_color[3] * 255]
-    if reads_picture(surface):
-        assert surface.material.base_color_image is not None
-        alphas.append(surface.material.base_color_image.pixels[..., 3].min())
-    elif surface.colors is not None:
-        alphas.append(surface.colors[:, 3].min())
-    return min(alphas) < 255
+    return surface.material.base_color[3] < 1 or surface.translucent
 
 
 def linear_colors(surface: Surface) -> FloatArray:
     """(V, 4) linear RGBA, 0..1, of a surface with vertex colours, times its material's base colour."""
     assert surface.colors is not None
-    values = surface.colors / 255.0
-    values[:, :3] = srgb_to_linear(values[:, :3])
-    return np.asarray(values * np.array(surface.material.base_color))
+    return np.asarray(decoded(surface.colors) * np.array(surface.material.base_color))

@@ -6,10 +6,10 @@ import hashlib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from simart_kit.mesh import Image
+from simart_kit.mesh import Image, VisualMaterial
 from simart_kit.surfaces import Surface
 
-from .looks import is_transparent, reads_colors, reads_picture
+from .looks import is_transparent, reads_colors
 
 if TYPE_CHECKING:
     from pxr import Gf, Sdf, Usd, UsdShade
@@ -29,8 +29,9 @@ def define_look(
     material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
     _set_factors(shader, surfaces[0])
     opacity = any(is_transparent(s) for s in surfaces)
-    if reads_picture(surfaces[0]):
-        _connect_picture(shader, surfaces[0], directory, opacity)
+    if surfaces[0].picture:
+        file = write_texture(surfaces[0].picture, "base_color", directory)
+        _connect_picture(shader, file, surfaces[0].material, opacity)
     elif reads_colors(surfaces[0]):
         _connect_colors(shader, opacity)
     if surfaces[0].uv is not None:
@@ -57,14 +58,11 @@ def _set_factors(shader: UsdShade.Shader, surface: Surface) -> None:
     shader.CreateInput("roughness", types.Float).Set(source.roughness)
 
 
-def _connect_picture(shader: UsdShade.Shader, surface: Surface, directory: Path, opacity: bool) -> None:
+def _connect_picture(shader: UsdShade.Shader, file: str, look: VisualMaterial, opacity: bool) -> None:
     """Read the base colour from its texture; the factor becomes the texture's scale."""
     from pxr import Gf, Sdf
 
-    image = surface.material.base_color_image
-    assert image is not None
-    file = write_texture(image, "base_color", directory)
-    texture = _texture(shader, "base_color", file, "sRGB", Gf.Vec4f(*surface.material.base_color))
+    texture = _texture(shader, "base_color", file, "sRGB", Gf.Vec4f(*look.base_color))
     _connect(shader, "diffuseColor", texture, "rgb", Sdf.ValueTypeNames.Float3)
     # Renderers sort surfaces whose opacity is connected, so it is not for opaque ones.
     if opacity:

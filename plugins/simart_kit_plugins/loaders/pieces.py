@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from simart_kit import BadInputError, Mesh, Note, VisualMaterial
-from simart_kit.arrays import ByteArray, FloatArray, IntArray
+from simart_kit.arrays import UP, ByteArray, FloatArray, IntArray, units
 from simart_kit.mesh import UpAxis
 from simart_kit.normals import with_normals
 
@@ -152,8 +152,7 @@ def _unit(piece: Piece) -> FloatArray | None:
     good = np.isfinite(length) & (length > 1e-12)
     if not good[piece.faces.ravel()].all():
         return None
-    up = np.broadcast_to([0.0, 0.0, 1.0], piece.normals.shape)
-    return np.where(good, piece.normals / np.where(good, length, 1.0), up)
+    return units(np.where(good, piece.normals, 0.0), otherwise=UP)
 
 
 def _with_normals(piece: Piece) -> Piece:

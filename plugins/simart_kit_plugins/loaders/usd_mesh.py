@@ -9,7 +9,7 @@ import numpy as np
 
 from simart_kit import BadInputError
 from simart_kit.arrays import ByteArray, FloatArray, IntArray
-from simart_kit.srgb import linear_to_srgb
+from simart_kit.srgb import encoded
 
 from .pieces import Piece
 from .usd_materials import Looks
@@ -177,8 +177,7 @@ def _piece(
 
 def _rgba(linear: FloatArray) -> ByteArray:
     """(V, 4) sRGB bytes of (V, 3) linear colours."""
-    rgb = np.round(255.0 * linear_to_srgb(np.nan_to_num(linear[:, :3])))
-    return np.column_stack([rgb, np.full(len(rgb), 255)]).astype(np.uint8)
+    return encoded(np.column_stack([np.nan_to_num(linear[:, :3]), np.ones(len(linear))]))
 
 
 def _array(values: Any, kind: type) -> Any:

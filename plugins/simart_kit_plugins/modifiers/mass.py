@@ -11,7 +11,7 @@ import simart_kit as sk
 from simart_kit.arrays import FloatArray
 from simart_kit.asset import Joint
 from simart_kit.hookspecs import Register
-from simart_kit.kinematics import ordered_joints
+from simart_kit.kinematics import carried
 from simart_kit.physics import MIN_MASS, weigh
 from simart_kit.solids import THICKNESS, Solid, solid
 
@@ -96,13 +96,9 @@ def _with_resistance(asset: sk.Asset, joint: Joint) -> Joint:
 
 def _load(asset: sk.Asset, joint: Joint) -> float:
     """Mass [kg] that a slide moves with all that hangs on it; else inertia about its axis [kg*m^2]."""
-    carried = {joint.child}
-    for other in ordered_joints(asset):
-        if other.parent in carried:
-            carried.add(other.child)
-    load = 0.0
+    load, moved = 0.0, carried(asset, joint.child)
     for part in asset.parts:
-        if part.name in carried and part.mass is not None:
+        if part.name in moved and part.mass is not None:
             arm = np.array(part.mass.center) - np.array(joint.origin)
             inertia = np.array(part.mass.inertia)
             inertia += part.mass.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))

@@ -10,6 +10,7 @@ from pydantic import Field
 
 import simart_kit
 from simart_kit import Modifier, hookimpl
+from simart_kit.kinematics import carried, joint_motion
 
 if TYPE_CHECKING:
     from simart_kit import Asset, Joint
@@ -67,8 +68,6 @@ class Sweep(Modifier):
         paths = Paths(triangles[moving], triangles[~moving], self.seed)
 
         def motion(position: float) -> FloatArray:
-            from simart_kit.kinematics import joint_motion
-
             matrix, origin = joint_motion(joint, position), np.array(joint.origin)
             matrix[:3, 3] += origin - matrix[:3, :3] @ origin
             return matrix
@@ -79,16 +78,6 @@ class Sweep(Modifier):
             for end in (joint.limits.lower, joint.limits.upper)
         ]
         return ends[0], ends[1]
-
-
-def carried(asset: Asset, part: str) -> set[str]:
-    """A part and all that it carries."""
-    found = {part}
-    while True:
-        more = {j.child for j in asset.joints if j.parent in found} - found
-        if not more:
-            return found
-        found |= more
 
 
 def _range(joint: Joint, lower: float, upper: float) -> str:

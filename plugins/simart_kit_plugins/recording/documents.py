@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import traceback
 from collections.abc import Iterable, Sequence
 
 from simart_kit.asset import Asset, Joint
 from simart_kit.loading import Source
-from simart_kit.recipe import Recipe, Use
+from simart_kit.recipe import Recipe
 from simart_kit.stages import Segmentation
+from simart_kit.toml_text import recipe_text
 
 from .changes import changes, said
 from .history import Event, Failure, History
@@ -61,13 +61,9 @@ def timings(events: Sequence[Event]) -> str:
     return f"{total:.2f} s in all\n\n" + _table(("bar", "stage", "by", "time"), rows)
 
 
-def recipe_text(recipe: Recipe) -> str:
+def recipe(used: Recipe) -> str:
     """The resolved recipe as TOML."""
-    head = [f"schema = {recipe.version}", f"seed = {recipe.seed}", f"stage_timeout = {recipe.stage_timeout}"]
-    stages = [("[segmenter]", recipe.segmenter), ("[joints]", recipe.joints)]
-    stages += [("[[modify]]", use) for use in recipe.modify] + [("[[export]]", use) for use in recipe.export]
-    blocks = ["\n".join(head), *(_use(header, use) for header, use in stages)]
-    return "## Recipe\n\n```toml\n" + "\n\n".join(blocks) + "\n```"
+    return f"## Recipe\n\n```toml\n{recipe_text(used)}```"
 
 
 def failure_text(failure: Failure, events: Sequence[Event]) -> str:
@@ -139,13 +135,6 @@ def _joints_table(asset: Asset) -> str:
 
 def _flags(joint: Joint) -> tuple[str, ...]:
     return tuple(f"**{flag}**" for flag in joint.flags)
-
-
-def _use(header: str, use: Use) -> str:
-    options = [f"{key} = {json.dumps(value)}" for key, value in use.options.items() if value is not None]
-    return "\n".join(
-        [header, f'use = "{use.use}"', *([f"options = {{ {', '.join(options)} }}"] if options else [])]
-    )
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

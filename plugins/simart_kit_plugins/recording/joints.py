@@ -8,9 +8,9 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray
 from simart_kit.asset import Asset, Joint
+from simart_kit.colors import Color
 from simart_kit.kinematics import rotation, span
 
-from .colors import Color
 from .tape import Tape
 from .text import readable
 

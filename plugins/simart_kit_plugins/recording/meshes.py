@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from simart_kit.arrays import ByteArray, FloatArray, IntArray
 from simart_kit.mesh import Image, Mesh
-
-from .colors import Color, srgb_factor
+from simart_kit.srgb import encoded
+from simart_kit.topology import neighbours
 
 
 def textured_mesh(mesh: Mesh, faces: IntArray, material: int, texels: int) -> Any:
@@ -25,11 +26,11 @@ def textured_mesh(mesh: Mesh, faces: IntArray, material: int, texels: int) -> An
         colors=None if mesh.colors is None else mesh.colors[used],
         uv=None if mesh.uv is None or image is None else mesh.uv[used],
         texture=None if image is None else _texture(image, texels),
-        factor=srgb_factor(look.base_color),
+        factor=encoded(np.array(look.base_color)).tolist(),
     )
 
 
-def plain_mesh(mesh: Mesh, faces: IntArray, color: Color) -> Any:
+def plain_mesh(mesh: Mesh, faces: IntArray, color: Sequence[int]) -> Any:
     """Some faces in one colour."""
     used, corners = np.unique(mesh.faces[faces], return_inverse=True)
     assert mesh.normals is not None
@@ -44,7 +45,7 @@ def mesh3d(
     colors: ByteArray | None = None,
     uv: FloatArray | None = None,
     texture: ByteArray | None = None,
-    factor: Color | None = None,
+    factor: Sequence[int] | None = None,
 ) -> Any:
     """A Mesh3D of (V, 3) vertices [m], (F, 3) faces and (V, 3) normals, with any of the looks."""
     import rerun as rr
@@ -76,11 +77,7 @@ def _texture(image: Image, texels: int) -> ByteArray:
 def convex_edges(vertices: FloatArray, faces: IntArray) -> IntArray:
     """(E, 2) edges of a convex mesh that lie between faces of different direction."""
     normals = Mesh(vertices, faces).face_normals
-    ends = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-    owner = np.tile(np.arange(len(faces)), 3)
-    order = np.lexsort((ends[:, 1], ends[:, 0]))
-    ends, owner = ends[order], owner[order]
-    pair = np.flatnonzero((ends[1:] == ends[:-1]).all(axis=1))
-    flat = np.einsum("ij,ij->i", normals[owner[pair]], normals[owner[pair + 1]]) > 0.9999
-    dropped = np.concatenate([pair + 1, pair[flat]])
-    return np.asarray(np.delete(ends, dropped, axis=0))
+    edge, left, right = neighbours(faces)
+    flat = np.einsum("ij,ij->i", normals[left], normals[right]) > 0.9999
+    ends = np.unique(np.sort(np.stack([faces, faces[:, [1, 2, 0]]], axis=-1).reshape(-1, 2)), axis=0)
+    return np.asarray(np.delete(ends, edge[flat], axis=0))

@@ -8,11 +8,12 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray, IntArray
 from simart_kit.asset import Asset
+from simart_kit.colors import part_color
 from simart_kit.mesh import Mesh
 from simart_kit.stages import Segmentation
 from simart_kit.voxels import cube_frame, voxelise
 
-from .colors import faded, part_color, part_colors, segment_colors
+from .colors import faded, segment_colors
 from .meshes import convex_edges, mesh3d, plain_mesh, textured_mesh
 from .tape import Tape
 from .text import readable
@@ -90,7 +91,7 @@ def log_parts(tape: Tape, mesh: Mesh, segmentation: Segmentation) -> None:
         rr.Points3D(
             middles,
             radii=rr.Radius.ui_points(3.0),
-            colors=part_colors(len(labels)),
+            colors=[part_color(index) for index in range(len(labels))],
             labels=labels,
             show_labels=True,
         ),

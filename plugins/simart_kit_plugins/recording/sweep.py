@@ -8,9 +8,9 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray
 from simart_kit.asset import Asset, Joint
+from simart_kit.colors import Color, part_color
 from simart_kit.kinematics import ordered_joints, rest_to_posed, span
 
-from .colors import Color, part_color
 from .tape import Tape
 
 _SECONDS_A_JOINT = 2.4

@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from simart_kit.arrays import FloatArray
 from simart_kit.recipe import Recipe
 
@@ -34,7 +36,9 @@ class Tape:
         """Log a column of values at (T,) times [s] on the sweep timeline."""
         import rerun as rr
 
-        self._stream.send_columns(path, [rr.TimeColumn(TIMELINE, duration=seconds)], columns, strict=True)
+        # Whole microseconds: pyarrow hands finer times to Python only where pandas is installed.
+        stamps = np.round(seconds * 1e6).astype("timedelta64[us]")
+        self._stream.send_columns(path, [rr.TimeColumn(TIMELINE, duration=stamps)], columns, strict=True)
 
 
 @contextmanager

@@ -8,13 +8,14 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray
 from simart_kit.asset import Asset
+from simart_kit.colors import part_color
 from simart_kit.loading import Source
 from simart_kit.mesh import Mesh
 from simart_kit.normals import with_normals
 
 from . import documents
 from .blueprint import blueprint
-from .colors import BEFORE, part_color
+from .colors import BEFORE
 from .history import History
 from .joints import log_joint, log_lines
 from .shapes import log_collision, log_parts, log_segments, log_textured, log_voxels
@@ -93,7 +94,7 @@ def _log_words(tape: Tape, history: History) -> None:
         "report/checks": documents.checks(history),
         "report/modifiers": documents.modifiers(history),
         "report/timings": documents.timings(history.events),
-        "report/recipe": documents.recipe_text(history.recipe),
+        "report/recipe": documents.recipe(history.recipe),
     }
     if history.failure is not None:
         texts["failure"] = documents.failure_text(history.failure, history.events)

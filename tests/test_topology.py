@@ -1,0 +1,66 @@
+"""How faces hang together, against numpy, networkx and hand-made cases."""
+
+import networkx as nx
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from simart_kit.arrays import IntArray
+from simart_kit.topology import connected, edges, neighbours, touching, unique_rows
+
+# Two triangles that share an edge, one that meets them in a corner, one alone.
+FACES = np.array([[0, 1, 2], [2, 1, 3], [3, 4, 5], [6, 7, 8]])
+few_faces = st.lists(st.tuples(*[st.integers(0, 6)] * 3), max_size=12).map(
+    lambda rows: np.array(rows, dtype=np.int64).reshape(-1, 3)
+)
+
+
+@given(rows=few_faces)
+def test_unique_rows_are_those_of_numpy(rows: IntArray) -> None:
+    first, ids = unique_rows(rows)
+    expected, expected_first, expected_ids = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    np.testing.assert_array_equal(rows[first], expected)
+    np.testing.assert_array_equal(first, expected_first)
+    np.testing.assert_array_equal(ids, expected_ids.reshape(-1))
+
+
+def test_an_edge_has_one_id_whichever_way_it_is_walked() -> None:
+    edge = edges(FACES)
+    assert edge[0, 1] == edge[1, 0]  # 1 -> 2 and 2 -> 1
+    assert len(np.unique(edge)) == 11
+
+
+def test_neighbours_share_the_edge_between_them() -> None:
+    edge, left, right = neighbours(FACES)
+    assert (left.tolist(), right.tolist()) == ([0], [1])
+    assert edge.tolist() == [edges(FACES)[0, 1]]
+
+
+def test_three_faces_around_an_edge_are_two_pairs() -> None:
+    edge, left, right = neighbours(np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4]]))
+    assert (left.tolist(), right.tolist()) == ([0, 1], [1, 2])
+    assert edge[0] == edge[1]
+
+
+def test_faces_that_share_a_corner_touch() -> None:
+    label = touching(FACES)
+    assert label[0] == label[1] == label[2] != label[3]
+
+
+@given(faces=few_faces)
+def test_pieces_are_the_components_of_the_graph_of_corners(faces: IntArray) -> None:
+    graph = nx.Graph(
+        [(int(a), int(b)) for face in faces for a, b in zip(face, np.roll(face, 1), strict=True)]
+    )
+    pieces = [
+        {i for i, face in enumerate(faces) if face[0] in part} for part in nx.connected_components(graph)
+    ]
+    label = touching(faces)
+    found = [set(np.flatnonzero(label == i).tolist()) for i in np.unique(label)]
+    assert sorted(map(sorted, found)) == sorted(map(sorted, pieces))
+
+
+@pytest.mark.parametrize("links", [1, 256])
+def test_a_link_may_be_given_many_times(links: int) -> None:
+    assert connected(3, np.zeros(links, dtype=int), np.ones(links, dtype=int)).tolist() == [0, 0, 1]
