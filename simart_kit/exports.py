@@ -44,8 +44,7 @@ def export_all(
     """
     mains, unsupported = {}, {}
     for use in recipe.export:
-        stage, registration = build(use, "exporter", plugins, recipe.seed)
-        assert isinstance(stage, Exporter)
+        stage, registration = build(use, Exporter, plugins, recipe.seed)
         directory = runner.run.folder / registration.name
         exported = runner.stage("export", registration, export_one, asset, stage, directory)
         mains[registration.name] = exported.main
@@ -88,8 +87,7 @@ def export_folder(folder: str | Path, exporter: str, plugins: Plugins | None = N
     asset = load_asset(folder)
     record = _record(folder)
     use, seed = _earlier_use(record, exporter)
-    stage, registration = build(use, "exporter", plugins, seed)
-    assert isinstance(stage, Exporter)
+    stage, registration = build(use, Exporter, plugins, seed)
     with staging(folder) as work:
         try:
             exported = export_one(asset, stage, work / exporter)

@@ -105,8 +105,7 @@ def _load(
 
 
 def _segment(runner: Runner, plugins: Plugins, recipe: Recipe, loaded: Source) -> Segmentation:
-    stage, registration = build(recipe.segmenter, "segmenter", plugins, recipe.seed)
-    assert isinstance(stage, Segmenter)
+    stage, registration = build(recipe.segmenter, Segmenter, plugins, recipe.seed)
     return runner.stage("segment", registration, lambda mesh: checked(stage.segment(mesh), mesh), loaded.mesh)
 
 
@@ -119,8 +118,7 @@ def _articulate(
     name: str,
     floating: bool,
 ) -> Asset:
-    stage, registration = build(recipe.joints, "joint predictor", plugins, recipe.seed)
-    assert isinstance(stage, JointPredictor)
+    stage, registration = build(recipe.joints, JointPredictor, plugins, recipe.seed)
 
     def predicted(segmentation: Segmentation) -> Asset:
         joints = stage.predict(loaded.mesh, segmentation)
@@ -131,8 +129,7 @@ def _articulate(
 
 def _modify(runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset) -> Asset:
     for use in recipe.modify:
-        stage, registration = build(use, "modifier", plugins, recipe.seed)
-        assert isinstance(stage, Modifier)
+        stage, registration = build(use, Modifier, plugins, recipe.seed)
         asset = runner.stage("modify", registration, _modified, asset, stage)
     return asset
 
@@ -207,7 +204,7 @@ def _failures_kept(runner: Runner, folder: Path) -> Iterator[None]:
     """Keep the recording, the failed stage's input and the traceback of a run that a stage ends."""
     try:
         yield
-    except StageError:
+    except StageError as error:
         kept = runner.run.folder / "failed"
         kept.mkdir(exist_ok=True)
         (kept / "error.txt").write_text(traceback.format_exc(), encoding="utf-8")
@@ -215,6 +212,7 @@ def _failures_kept(runner: Runner, folder: Path) -> Iterator[None]:
         if recording.exists():
             recording.replace(kept / recording.name)
         keep_failure(kept, folder)
+        error.add_note(f"its input and the traceback are in {folder / 'failed'}")
         raise
     except SimartKitError as error:
         runner.tell("run_failed", stage="load", error=error)

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import hashlib
-import importlib
-import importlib.util
 import inspect
 import os
-import sys
 import traceback
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from importlib.metadata import EntryPoint, entry_points, version
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pluggy
 
 from . import hookspecs
 from .errors import AmbiguousPluginError, PluginError, StageError, UnknownPluginError
+from .plugin_import import import_plugin
 from .stages import Exporter, JointPredictor, Modifier, Options, Segmenter, Stage
 
 DEFAULT_PLUGINS = (
@@ -212,7 +208,7 @@ class Plugins:
     def _load(self, owner: Owner, source: str | EntryPoint | Path) -> None:
         phase = "import"
         try:
-            plugin = _import(source)
+            plugin = import_plugin(source)
             phase = "registration"
             self.register(plugin() if isinstance(plugin, type) else plugin, owner)
         except (Exception, SystemExit) as error:
@@ -261,32 +257,3 @@ def _entry_points() -> list[EntryPoint]:
     """Installed plugins in an order that does not depend on the file system."""
     found = entry_points(group="simart_kit")
     return sorted(found, key=lambda p: (p.dist.name if p.dist else "", p.name))
-
-
-def _import(source: str | EntryPoint | Path) -> Any:
-    if isinstance(source, EntryPoint):
-        return source.load()
-    if isinstance(source, Path):
-        return _import_file(source)
-    module, _, attribute = source.partition(":")
-    loaded = importlib.import_module(module)
-    return getattr(loaded, attribute) if attribute else loaded
-
-
-def _import_file(path: Path) -> ModuleType:
-    if not path.is_file():
-        raise FileNotFoundError(f"no plugin file {path}")
-    digest = hashlib.sha256(str(path.resolve()).encode()).hexdigest()[:8]
-    name = f"simart_kit_file_{path.stem}_{digest}"
-    spec = importlib.util.spec_from_file_location(name, path)
-    if spec is None or spec.loader is None:
-        raise ImportError(f"{path} is not a Python file")
-    module = importlib.util.module_from_spec(spec)
-    # Dataclasses and pydantic look postponed annotations up through sys.modules.
-    sys.modules[name] = module
-    try:
-        spec.loader.exec_module(module)
-    except BaseException:
-        del sys.modules[name]
-        raise
-    return module

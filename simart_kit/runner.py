@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 from .asset_io import save_value
+from .errors import StageError
 from .mesh import Note
 from .plugins import Plugins, Registration
 from .timeout import time_limit
@@ -81,8 +82,8 @@ class Runner:
                 value = function(*args, **kwargs)
         except (Exception, SystemExit) as cause:
             error = registration.failure(cause)
-            save_value(args[0], self.run.folder / "failed" / "input")
             self.tell("run_failed", stage=stage, error=error)
+            self._save(args[0], error)
             raise error from cause
         self.used += (registration,)
         self._finished(stage, registration.name, value, time.perf_counter() - start)
@@ -93,6 +94,13 @@ class Runner:
         for owner, error in self._plugins.notify(hook, {"run": self.run, **arguments}):
             text = f"{owner} failed in {hook}: {type(error).__name__}: {error}"
             self.notes += (Note("observer", "warning", text),)
+
+    def _save(self, value: object, error: StageError) -> None:
+        """Keep a failed stage's input; a value too damaged to be written must not hide the error."""
+        try:
+            save_value(value, self.run.folder / "failed" / "input")
+        except Exception as unsaved:
+            error.add_note(f"its input could not be saved: {unsaved}")
 
     def _finished(self, stage: str, name: str, value: object, seconds: float) -> None:
         self.seconds += ((stage, name, seconds),)

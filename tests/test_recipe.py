@@ -10,7 +10,8 @@ import pytest
 import simart_kit as sk
 from simart_kit.errors import AmbiguousPluginError, RecipeError, StageError
 from simart_kit.plugins import Failure, Owner, Plugins
-from simart_kit.recipe import Use, apply_set, build, known_recipes, load_recipe, packaged_recipes
+from simart_kit.recipe import Use, build, load_recipe
+from simart_kit.recipe_files import apply_set, known_recipes, packaged_recipes
 from simart_kit.toml_text import recipe_text
 
 BASE = """
@@ -347,11 +348,11 @@ def test_an_unknown_stage_names_known_ones_and_plugins_that_failed_once(write, p
 
 
 def test_build_passes_options_and_seed(plugins):
-    stage, registration = build(Use(use="boxes", options={"max_parts": 3}), "segmenter", plugins, 11)
+    stage, registration = build(Use(use="boxes", options={"max_parts": 3}), sk.Segmenter, plugins, 11)
 
     assert (stage.options.max_parts, stage.seed, registration.value) == (3, 11, Boxes)
 
 
 def test_build_names_a_stage_whose_constructor_fails(plugins):
     with pytest.raises(StageError, match=r"modifier 'press' failed \(plugin fakes, fakes 1\): .*cannot pull"):
-        build(Use(use="press", options={"force": -1.0}), "modifier", plugins, 0)
+        build(Use(use="press", options={"force": -1.0}), sk.Modifier, plugins, 0)

@@ -10,7 +10,8 @@ import simart_kit_plugins
 
 from simart_kit import Plugins
 from simart_kit.plugins import DEFAULT_PLUGINS
-from simart_kit.recipe import load_recipe, packaged_recipes
+from simart_kit.recipe import load_recipe
+from simart_kit.recipe_files import packaged_recipes
 from simart_kit.testing.contracts import StageContract
 
 
