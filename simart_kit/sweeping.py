@@ -7,8 +7,9 @@ from collections.abc import Callable
 import numpy as np
 
 from .arrays import FloatArray, IntArray
-from .normals import weld
 from .rays import Rays
+from .topology import touching, weld
+from .triangles import areas, unit_normals
 
 Motion = Callable[[float], FloatArray]
 """Position [rad | m] -> (4, 4) motion of the moving surface from where it rests."""
@@ -71,8 +72,7 @@ class _Surface:
 
     def __init__(self, triangles: FloatArray) -> None:
         self.rays = Rays(triangles)
-        cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-        self.normals = cross / np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), 1e-30)
+        self.normals = unit_normals(triangles)
         self._piece = _pieces(triangles)
 
     def outside(self, points: FloatArray) -> FloatArray:
@@ -91,7 +91,7 @@ class _Paths:
 
     def __init__(self, target: _Surface, points: FloatArray, deep: float) -> None:
         self._target, self._points, self._deep = target, points, deep
-        self._now = points
+        self._now, self._lead = points, 1.0
         self._crossed = np.zeros(len(points), dtype=bool)
         self._passed = np.zeros(len(points), dtype=bool)
         self._hit = np.zeros_like(points)
@@ -103,9 +103,11 @@ class _Paths:
             return 0
         start, self._now = self._now, move(pose, self._points)
         way = self._now - start
-        # A point that touches at rest starts a little way off the surface.
+        # A point that touches at rest starts a little way off the surface; every later step of it starts a
+        # little way back, lest a surface just where two steps meet be missed.
         length = np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-30)
-        start = start + way * np.minimum(0.03 * self._deep / length, 0.5)
+        start = start + self._lead * way * np.minimum(0.03 * self._deep / length, 0.5)
+        self._lead = -1.0
         faces, distance = self._target.rays.first(start, self._now - start)
         new = (distance <= 1.0) & ~self._crossed
         self._hit[new] = (start + (self._now - start) * np.where(new, distance, 0.0)[:, None])[new]
@@ -118,17 +120,17 @@ class _Paths:
 
 def sample_surface(triangles: FloatArray, count: int, rng: np.random.Generator) -> FloatArray:
     """(N, 3) points spread over triangles by area, N = count, or 0 where there is no surface."""
-    edges = triangles[:, 1:] - triangles[:, :1]
-    areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
-    if not areas.sum() > 0:
+    area = areas(triangles)
+    if not area.sum() > 0:
         return np.zeros((0, 3))
     # Evenly spaced in cumulated area: no large face is missed by chance.
     places = (np.arange(count) + rng.random(count)) / count
-    chosen = np.searchsorted(np.cumsum(areas) / areas.sum(), places).clip(max=len(areas) - 1)
+    chosen = np.searchsorted(np.cumsum(area) / area.sum(), places).clip(max=len(triangles) - 1)
+    start, edges = triangles[chosen, 0], triangles[chosen, 1:] - triangles[chosen, :1]
     u, v = rng.random((2, count, 1))
     folded = u + v > 1
     u, v = np.where(folded, 1 - u, u), np.where(folded, 1 - v, v)
-    return np.asarray(triangles[chosen, 0] + u * edges[chosen, 0] + v * edges[chosen, 1])
+    return np.asarray(start + u * edges[:, 0] + v * edges[:, 1])
 
 
 def move(matrix: FloatArray, points: FloatArray) -> FloatArray:
@@ -138,13 +140,8 @@ def move(matrix: FloatArray, points: FloatArray) -> FloatArray:
 
 def _pieces(triangles: FloatArray) -> IntArray:
     """(F,) connected piece of each triangle."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     if not len(triangles):
         return np.zeros(0, dtype=np.int64)
     corners = triangles.reshape(-1, 3)
-    a, b, c = weld(corners, float(np.ptp(corners, axis=0).max()) * 1e-5).reshape(-1, 3).T
-    count = int(max(a.max(), b.max(), c.max())) + 1
-    links = coo_array((np.ones(2 * len(a)), (np.r_[a, b], np.r_[b, c])), shape=(count, count))
-    return np.asarray(connected_components(links, directed=False)[1][a], dtype=np.int64)
+    tolerance = float(np.ptp(corners, axis=0).max()) * 1e-5
+    return touching(weld(corners, tolerance).reshape(-1, 3))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -14,7 +15,7 @@ from .views import View
 SLIDING = ("drawer", "tray", "rack", "slide", "sliding", "button", "basket")
 HINGED = ("door", "lid", "flap", "cover", "hatch", "gate", "window", "hinge")
 SPINNING = ("wheel", "knob", "caster", "dial", "fan", "rotor")
-AJAR = np.deg2rad(3.0)
+AJAR = np.deg2rad(1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +41,8 @@ class Score:
 
 def says(label: str, words: Sequence[str]) -> bool:
     """Whether a label names one of these things."""
-    return any(word in label.lower() for word in words)
+    spoken = re.findall(r"[a-z]+", label.lower())
+    return any(word in (one, one.removesuffix("s")) for one in spoken for word in words)
 
 
 def slide_score(view: View, label: str) -> Score:

@@ -8,7 +8,8 @@ from simart_kit.arrays import FloatArray
 
 from .scene import Scene
 
-_MOST_POINTS, _MOST_TRIANGLES = 400, 4000
+_MOST_POINTS, _MOST_TRIANGLES = 300, 4000
+_CHUNK = 1 << 16
 
 
 class Contacts:
@@ -47,7 +48,7 @@ class Contacts:
         points = np.concatenate([points.reshape(-1, 3), points.mean(axis=1)])
         box = self._scene.boxes[b]
         inside = ((points >= box.lower - self._reach) & (points <= box.upper + self._reach)).all(axis=1)
-        points = _spread(np.unique(points[inside], axis=0), _MOST_POINTS)
+        points = _spread(points[inside], _MOST_POINTS)
         triangles = self._scene.triangles[self._faces[b]]
         box = self._scene.boxes[a]
         low, high = triangles.min(axis=1), triangles.max(axis=1)
@@ -55,34 +56,46 @@ class Contacts:
         triangles = _spread(triangles[close], _MOST_TRIANGLES)
         if not len(points) or not len(triangles):
             return np.inf
-        nearest = float(point_triangle_distances(points, triangles).min())
+        nearest = smallest_distance(points, triangles, self._reach)
         return nearest if nearest <= self._reach else np.inf
 
 
-def point_triangle_distances(points: FloatArray, triangles: FloatArray) -> FloatArray:
-    """(N,) distance of each point to the nearest of (M, 3, 3) triangles."""
-    return np.concatenate(
-        [_block(points[start : start + 64], triangles).min(axis=1) for start in range(0, len(points), 64)]
-    )
+def smallest_distance(points: FloatArray, triangles: FloatArray, reach: float) -> float:
+    """Smallest distance between (N, 3) points and (M, 3, 3) triangles; exact where it is within `reach`.
+
+    Only pairs whose spheres could hold the smallest distance are looked at closely.
+    """
+    from scipy.spatial.distance import cdist
+
+    centers = triangles.mean(axis=1)
+    radii = np.linalg.norm(triangles - centers[:, None], axis=2).max(axis=1)
+    to_center = cdist(points, centers)  # a centre lies on its triangle: an upper bound
+    point, triangle = np.nonzero(to_center <= radii + min(float(to_center.min()), reach) + 1e-9)
+    best = np.inf
+    for start in range(0, len(point), _CHUNK):
+        part = slice(start, start + _CHUNK)
+        best = min(best, float(paired_distances(points[point[part]], triangles[triangle[part]]).min()))
+    return best
 
 
-def _block(points: FloatArray, triangles: FloatArray) -> FloatArray:
-    """(N, M) distances: to the plane where the foot lies inside, else to the nearest edge."""
+def paired_distances(points: FloatArray, triangles: FloatArray) -> FloatArray:
+    """(K,) distance of (K, 3) points to (K, 3, 3) triangles, each to its own.
+
+    To the plane where the foot lies inside, else to the nearest edge.
+    """
     a, b, c = triangles.transpose(1, 0, 2)
     normal = np.cross(b - a, c - a)
     length = np.linalg.norm(normal, axis=1)
     unit = normal / np.maximum(length, 1e-30)[:, None]
-    offset = points[:, None] - a
-    height = np.einsum("nmi,mi->nm", offset, unit)
-    inside = np.broadcast_to(length > 1e-14, height.shape).copy()
-    nearest = np.full(height.shape, np.inf)
+    height = np.einsum("ki,ki->k", points - a, unit)
+    inside = length > 1e-14
+    nearest = np.full(len(points), np.inf)
     for start, end in ((a, b), (b, c), (c, a)):
-        edge = end - start
-        away = points[:, None] - start
-        inside &= np.einsum("nmi,mi->nm", away, np.cross(unit, edge)) >= 0
-        along = np.einsum("nmi,mi->nm", away, edge) / np.maximum((edge**2).sum(axis=1), 1e-30)
-        foot = np.clip(along, 0, 1)[..., None] * edge
-        nearest = np.minimum(nearest, np.linalg.norm(away - foot, axis=2))
+        edge, away = end - start, points - start
+        inside &= np.einsum("ki,ki->k", away, np.cross(unit, edge)) >= 0
+        along = np.einsum("ki,ki->k", away, edge) / np.maximum((edge**2).sum(axis=1), 1e-30)
+        foot = np.clip(along, 0, 1)[:, None] * edge
+        nearest = np.minimum(nearest, np.linalg.norm(away - foot, axis=1))
     return np.where(inside, np.abs(height), nearest)
 
 

@@ -13,6 +13,7 @@ from .scene import FACINGS, Box, Scene
 
 # All lengths are shares of the object's diagonal.
 TOUCH = 0.004  # closer than this, a handle sits on its panel
+PANEL = 0.7  # share of a piece's surface that faces out or back, above which it is a panel
 LOOSE = 2e-4  # farther than this, a panel is not glued to its neighbour
 HOLDS = 0.001  # closer than this, a wall holds a shelf
 HANGS = 0.012  # closer than this, a box behind a front hangs on it
@@ -94,12 +95,19 @@ def _front(
 ) -> Front:
     axes, box = FACINGS[facing], boxes[piece]
     handles = _handles(contacts, boxes, piece, inlays)
-    behind = _behind(contacts, boxes, piece, (*inlays, *handles))
+    # What lies under a lid is what it closes, not what it carries.
+    behind = _behind(contacts, boxes, piece, (*inlays, *handles)) if facing != "top" else ()
     if behind and not _drawer_box(scene, axes, boxes, piece, behind):
         behind = ()  # racks, baskets and rails are not a drawer's box: they stay when a door opens
     own = (piece, *inlays, *handles, *behind)
     whole = scene.box.turned(axes)
-    walled, backed, depth = _surroundings(scene, axes, box, own)
+    flat = _flat(scene, axes, piece)
+    # A flat piece is a panel however far back it reaches: then it stands ajar.
+    deep = behind if flat > PANEL else (piece, *behind)
+    boxed = bool(deep) and _boxed(box.upper[2] - min(boxes[i].lower[2] for i in deep), box, whole)
+    walled, backed, depth = _surroundings(
+        scene, axes, box, own, box.upper[2] - 0.02 if boxed else box.lower[2]
+    )
     return Front(
         piece,
         facing,
@@ -111,12 +119,12 @@ def _front(
         backed,
         depth,
         framed=_framed(scene, axes, box, own),
+        boxed=boxed,
         hollow=_hollow(scene, axes, box, piece),
-        flat=_flat(scene, axes, piece),
+        flat=flat,
         loose=all(contacts.gap(piece, i) > LOOSE for i in range(len(boxes)) if i not in own),
-        handles_middle=np.mean([boxes[i].center for i in handles or (piece,)], axis=0),
         share=float(np.prod(box.size[:2]) / np.prod(whole.size[:2])),
-        boxed=_boxed(box.upper[2] - min(boxes[i].lower[2] for i in (piece, *behind)), box, whole),
+        handles_middle=np.mean([boxes[i].center for i in handles or (piece,)], axis=0),
     )
 
 
@@ -263,10 +271,9 @@ def _small(scene: Scene, labels: FloatArray, box: Box) -> BoolArray:
 
 
 def _surroundings(
-    scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]
+    scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...], behind: float
 ) -> tuple[float, float, float]:
     """Shares of rays from just behind the panel that meet other pieces: to the sides, and straight back."""
-    behind = box.lower[2] if box.size[2] < 0.05 else box.upper[2] - 0.02
     points = _grid(box, 5, 0.8)
     origins = np.column_stack([points, np.full(len(points), behind - 0.5 * TOUCH)])
     sides = []

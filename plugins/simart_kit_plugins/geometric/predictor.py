@@ -14,7 +14,7 @@ from simart_kit.arrays import vec3
 from simart_kit.asset import Joint, Limits, clean_name, unique_names
 from simart_kit.kinematics import rotation
 from simart_kit.segments import find_segments
-from simart_kit.sweeping import BLOCKED, Motion, Sweep
+from simart_kit.sweeping import Motion, Sweep
 
 from .candidates import Candidate, at_depth, hinges, slide, spin
 from .choice import SPINNING, Surroundings, edge_score, hinge_score, says, slide_score
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 _SUFFIX = {"revolute": "hinge", "prismatic": "slide", "continuous": "spin"}
 _SHUT = np.deg2rad(0.5)
+_AS_FREE = 0.005  # share of points that may pass through more than about the freest line
 _HARDWARE = 0.12  # pieces of the body smaller than this share of the diagonal may be hinges
 
 
@@ -164,19 +165,25 @@ def _carrier(contacts: Contacts, body: int, part: int, moving: list[int]) -> int
 
 
 def _deep_enough(scene: Scene, view: View, hinge: Candidate) -> Candidate:
-    """The hinge in the middle, front or back of the panel's thickness: the first that opens freely."""
+    """The hinge in the middle, front or back of the panel's thickness: the first that opens most freely."""
     mine = scene.labels == view.part
     sweep = Sweep(scene.triangles[mine] @ view.axes.T, scene.triangles[~mine] @ view.axes.T)
     stops = np.linspace(0.05, 1.0, 20) * hinge.upper
-    best, least = hinge, np.inf
-    for w in (view.box.center[2], view.box.upper[2], view.box.lower[2]):
-        tried = at_depth(hinge, float(w))
-        share = float(sweep.blocked(_turning(tried), stops)[-1])
-        if share <= BLOCKED:
-            return tried
-        if share < least:
-            best, least = tried, share
-    return best
+    lower, upper = _thickness(scene, view, hinge)
+    depths = ((lower + upper) / 2, upper, lower)
+    tried = [at_depth(hinge, float(w)) for w in depths]
+    shares = [float(sweep.blocked(_turning(one), stops)[-1]) for one in tried]
+    # An inset door that turns about its middle cuts into its frame with a narrow strip, a percent of it.
+    return next(one for one, share in zip(tried, shares, strict=True) if share <= min(shares) + _AS_FREE)
+
+
+def _thickness(scene: Scene, view: View, hinge: Candidate) -> tuple[float, float]:
+    """Where the panel begins and ends in depth [w]; at the hinge, where it stands ajar."""
+    if abs(view.ajar) < _SHUT or hinge.edge not in ("left", "right"):
+        return float(view.box.lower[2]), float(view.box.upper[2])
+    points = scene.triangles[scene.labels == view.part].reshape(-1, 3) @ view.axes.T
+    near = np.abs(points[:, 0] - hinge.origin[0]) < 0.05 * view.box.size[0]
+    return float(points[near, 2].min()), float(points[near, 2].max())
 
 
 def _turning(hinge: Candidate) -> Motion:

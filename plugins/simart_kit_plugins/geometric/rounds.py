@@ -12,26 +12,22 @@ from .contact import Contacts
 from .movers import Mover
 from .scene import Scene
 
-_ROUND = 0.03  # spread of the radius over all directions, as a share of it
-_BINS = 24
+_ROUND = 0.03  # how far within the radius a corner still lies on the rim, as a share of it
+_LARGEST_GAP = np.deg2rad(50.0)  # between corners of the rim: an octagon is a coarse wheel, a hexagon a nut
 
 
 def round_axis(points: FloatArray) -> int | None:
-    """Axis (0, 1, 2) about which (N, 3) points are a disc: as far out in every direction, and not a rod."""
+    """Axis (0, 1, 2) about which (N, 3) points are a disc: a rim all around, and not a rod."""
     size = np.ptp(points, axis=0)
     center = (points.max(axis=0) + points.min(axis=0)) / 2
     for axis in np.argsort(size):
         across = np.delete(np.arange(3), axis)
-        a, b = (points - center)[:, across].T
-        radius = np.hypot(a, b)
-        bins = ((np.arctan2(b, a) + np.pi) / (2 * np.pi) * _BINS).astype(int) % _BINS
-        farthest = np.zeros(_BINS)
-        np.maximum.at(farthest, bins, radius)
-        if (
-            farthest.min() > 0
-            and farthest.std() < _ROUND * farthest.mean()
-            and size[axis] < 1.2 * size[across].max()
-        ):
+        offset = (points - center)[:, across]
+        radius = np.hypot(*offset.T)
+        rim = offset[radius > (1 - _ROUND) * radius.max()]
+        angles = np.sort(np.arctan2(rim[:, 1], rim[:, 0]))
+        gaps = np.diff(angles, append=angles[0] + 2 * np.pi)
+        if gaps.max() < _LARGEST_GAP and size[axis] < 1.2 * size[across].max():
             return int(axis)
     return None
 

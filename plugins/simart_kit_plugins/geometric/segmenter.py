@@ -55,7 +55,7 @@ class Geometric(Segmenter):
             frozen_ints(face_part),
             tuple(guesses),
             face_segment=segments.face_segment,
-            notes=(Note("segment", "info", segments.describe()), Note("segment", "info", _told(movers))),
+            notes=_notes(segments, movers),
         )
 
 
@@ -69,6 +69,14 @@ def _find(scene: Scene, segments: Segments) -> list[Mover]:
     taken.update(piece for mover in rolling for piece in mover.pieces)
     found = movers + rolling + knobs(scene, taken)
     return sorted(found, key=lambda mover: -mover.score)
+
+
+def _notes(segments: Segments, movers: list[Mover]) -> tuple[Note, ...]:
+    notes = (Note("segment", "info", segments.describe()), Note("segment", "info", _told(movers)))
+    if not segments.patches:
+        return notes
+    text = "the surface is one fused skin, in which little can be told apart without weights: look at it"
+    return (*notes, Note("segment", "warning", text))
 
 
 def _told(movers: list[Mover]) -> str:

@@ -49,7 +49,7 @@ class View:
     @property
     def is_box(self) -> bool:
         """Whether it reaches as far back as a drawer does."""
-        depth = self.box.size[2]
+        depth = self.box.size[2] - abs(np.sin(self.ajar)) * self.box.size[0]
         return bool(depth > 0.3 * self.body.size[2] and depth > 0.3 * self.box.size[:2].min())
 
 

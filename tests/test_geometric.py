@@ -1,0 +1,437 @@
+"""`geometric`, segmenter and joint predictor, on furniture of boards: what opens, how, and what stays."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+from simart_kit_plugins.geometric.predictor import GeometricJoints
+from simart_kit_plugins.geometric.rounds import round_axis
+from simart_kit_plugins.geometric.segmenter import Geometric
+
+import simart_kit as sk
+from simart_kit.arrays import FloatArray, IntArray
+from simart_kit.assemble import assemble, checked
+from simart_kit.kinematics import rest_to_posed, rotation
+from simart_kit.mesh import Mesh
+from simart_kit.testing.meshes import boxes_mesh
+
+from .furniture import (
+    BOARD,
+    CABINET,
+    HIGH,
+    INSET,
+    OPENING,
+    STATIC,
+    Box,
+    box,
+    cabinet_with_door,
+    cabinet_with_two_doors,
+    carcass,
+    cart,
+    joined,
+    panel,
+    stove,
+    turned,
+    turning,
+)
+
+
+@dataclass(frozen=True)
+class Found:
+    """What the segmenter and the predictor made of a mesh."""
+
+    mesh: Mesh
+    segmentation: sk.Segmentation
+    joints: tuple[sk.Joint, ...]
+
+    @property
+    def kinds(self) -> dict[str, str]:
+        return {joint.child: joint.kind for joint in self.joints}
+
+    def joint(self, child: str) -> sk.Joint:
+        return next(j for j in self.joints if j.child == child)
+
+    def faces(self, child: str) -> IntArray:
+        names = [p.name for p in self.segmentation.parts]
+        return np.flatnonzero(self.segmentation.face_part == names.index(child))
+
+    def travel(self, child: str, fraction: float = 0.3) -> FloatArray:
+        """(N, 3) ways of a part's vertices when its joint goes a fraction of its range."""
+        joint = self.joint(child)
+        assert joint.limits is not None
+        asset = assemble("thing", self.mesh, self.segmentation, self.joints, np.eye(4))
+        posed = rest_to_posed(asset, {joint.name: fraction * joint.limits.upper})[child]
+        points = self.mesh.triangles[self.faces(child)].reshape(-1, 3)
+        return points @ posed[:3, :3].T + posed[:3, 3] - points
+
+
+def found(source: Mesh | list[Box], **options: Any) -> Found:
+    mesh = source if isinstance(source, Mesh) else boxes_mesh(source)
+    segmentation = checked(Geometric(Geometric.Options(**options)).segment(mesh), mesh)
+    return Found(mesh, segmentation, GeometricJoints().predict(mesh, segmentation))
+
+
+def assert_hinge(joint: sk.Joint, through: tuple[float, float, float], along: str) -> None:
+    """A revolute joint whose axis passes a point within 2 cm, along x, y or z."""
+    assert joint.kind == "revolute"
+    axis = np.array(joint.axis)
+    np.testing.assert_allclose(np.abs(axis), np.eye(3)["xyz".index(along)], atol=1e-9)
+    apart = np.array(joint.origin) - through
+    assert np.linalg.norm(apart - axis * (apart @ axis)) < 0.02
+
+
+class TestStatic:
+    @pytest.mark.parametrize("name", STATIC)
+    def test_nothing_moves_whichever_way_it_stands(self, name: str) -> None:
+        for quarter in range(4):
+            result = found(turned(boxes_mesh(STATIC[name]), 90.0 * quarter))
+            assert [p.name for p in result.segmentation.parts] == ["body"]
+            assert result.joints == ()
+
+    def test_that_is_told(self) -> None:
+        texts = [note.text for note in found(STATIC["television"]).segmentation.notes]
+        assert texts == [
+            "4 connected components",
+            "nothing was found that moves: the object is taken as static",
+        ]
+
+
+class TestDoors:
+    @pytest.mark.parametrize(("handle", "edge"), [("right", INSET[0]), ("left", INSET[1])])
+    def test_the_hinge_is_opposite_the_handle(self, handle: str, edge: float) -> None:
+        result = found(cabinet_with_door(handle))
+        assert list(result.kinds) == ["door"]
+        assert_hinge(result.joint("door"), (edge, -0.19, 0.0), "z")
+        np.testing.assert_array_equal(result.faces("door"), np.arange(60, 84))  # the panel and its handle
+
+    def test_without_a_handle_it_still_opens(self) -> None:
+        result = found(cabinet_with_door(None))
+        assert result.kinds == {"door": "revolute"}
+        assert abs(result.joint("door").axis[2]) == 1.0
+
+    @pytest.mark.parametrize("handles", [True, False])
+    def test_two_doors_have_their_hinges_outside(self, handles: bool) -> None:
+        result = found(cabinet_with_two_doors(handles))
+        assert result.kinds == {"left_door": "revolute", "right_door": "revolute"}
+        assert_hinge(result.joint("left_door"), (-0.448, -0.21, 0.0), "z")
+        assert_hinge(result.joint("right_door"), (0.448, -0.21, 0.0), "z")
+
+    def test_an_oven_has_a_flap_hinged_below(self) -> None:
+        result = found(OPENING["oven"])
+        assert list(result.kinds) == ["door"]
+        assert_hinge(result.joint("door"), (0.0, -0.29, 0.002), "x")
+
+    def test_the_controls_of_a_microwave_stay(self) -> None:
+        result = found(OPENING["microwave"])
+        assert list(result.kinds) == ["door"]
+        assert_hinge(result.joint("door"), (-0.248, -0.19, 0.0), "z")
+        np.testing.assert_array_equal(result.faces("door"), np.arange(72, 96))
+
+    def test_a_chest_has_a_lid_hinged_at_the_back(self) -> None:
+        result = found(OPENING["chest"])
+        assert list(result.kinds) == ["lid"]
+        assert_hinge(result.joint("lid"), (0.0, 0.26, 0.41), "x")
+
+    @pytest.mark.parametrize(
+        ("name", "child", "outward"),
+        [
+            ("cabinet", "door", (0, -1, 0)),
+            ("two_doors", "left_door", (0, -1, 0)),
+            ("two_doors", "right_door", (0, -1, 0)),
+            ("oven", "door", (0, -1, 0)),
+            ("microwave", "door", (0, -1, 0)),
+            ("chest", "lid", (0, 0, 1)),
+        ],
+    )
+    def test_positive_positions_open(
+        self, name: str, child: str, outward: tuple[float, float, float]
+    ) -> None:
+        """A third of the way, the free edge has come far out, and nothing has gone far in."""
+        result = found(OPENING[name])
+        way = result.travel(child) @ np.array(outward)
+        assert way.max() > 0.1
+        assert way.min() > -0.03
+
+    def test_doors_open_by_a_quarter_turn_unless_told(self) -> None:
+        mesh = boxes_mesh(OPENING["cabinet"])
+        segmentation = checked(Geometric().segment(mesh), mesh)
+        for degrees in (90.0, 120.0):
+            predictor = GeometricJoints(GeometricJoints.Options(open_angle=degrees))
+            (joint,) = predictor.predict(mesh, segmentation)
+            assert joint.limits == sk.Limits(0.0, float(np.radians(degrees)))
+
+    def test_reasons_are_given(self) -> None:
+        result = found(cabinet_with_door("right"))
+        assert "handle on the opposite side" in result.joint("door").evidence
+        assert 0.0 < result.joint("door").confidence <= 1.0
+        assert "1 piece(s) like a handle on it" in result.segmentation.parts[1].description
+
+
+class TestDrawers:
+    def test_a_drawer_slides_forward_with_all_its_boards(self) -> None:
+        result = found(OPENING["sideboard"])
+        assert result.kinds == {"door": "revolute", "drawer": "prismatic"}
+        assert result.joint("drawer").axis == (0.0, -1.0, 0.0)
+        np.testing.assert_array_equal(result.faces("drawer"), np.arange(96, 180))
+        assert_hinge(result.joint("door"), (INSET[1], -0.19, 0.0), "z")
+
+    def test_it_comes_out_by_most_of_its_depth_and_never_falls_out(self) -> None:
+        limits = found(OPENING["sideboard"]).joint("drawer").limits
+        assert limits is not None
+        assert limits.lower == 0.0
+        assert 0.5 * 0.35 < limits.upper < 0.35
+
+    def test_plain_fronts_with_knobs_are_drawers(self) -> None:
+        """The boxes behind were left out of the model: low, wide fronts with knobs in the middle."""
+        result = found(OPENING["dresser"])
+        assert result.kinds == dict.fromkeys(("drawer_1", "drawer_2", "drawer_3"), "prismatic")
+        for number, row in enumerate((2, 1, 0), start=1):  # numbered from the top
+            joint = result.joint(f"drawer_{number}")
+            assert joint.axis == (0.0, -1.0, 0.0)
+            panel, knob = 12 * (1 + row), 12 * (4 + row)
+            np.testing.assert_array_equal(
+                result.faces(joint.child), [*range(panel, panel + 12), *range(knob, knob + 12)]
+            )
+
+    def test_the_surest_are_kept_when_there_are_too_many(self) -> None:
+        assert len(found(OPENING["dresser"], max_parts=2).joints) == 2
+
+
+class TestRoundThings:
+    @pytest.mark.parametrize("axis", [0, 1])
+    def test_wheels_roll(self, axis: int) -> None:
+        result = found(cart(axis))
+        assert result.kinds == {f"wheel_{n}": "continuous" for n in (1, 2, 3, 4)}
+        centers = {tuple(np.round(np.array(j.origin) * 100).astype(int)) for j in result.joints}
+        assert centers == {(x, y, 5) for x in (-35, 35) for y in (-20, 20)}
+        for joint in result.joints:
+            np.testing.assert_allclose(np.abs(joint.axis), np.eye(3)[axis], atol=1e-9)
+
+    def test_knobs_in_a_row_turn(self) -> None:
+        result = found(stove())
+        assert result.kinds == {f"knob_{n}": "continuous" for n in (1, 2, 3, 4)}
+        for joint in result.joints:
+            np.testing.assert_allclose(np.abs(joint.axis), (0, 1, 0), atol=1e-9)
+
+
+class TestAjar:
+    @pytest.mark.parametrize(("edge", "sense"), [(INSET[0], -1.0), (INSET[1], 1.0)])
+    def test_a_door_that_stands_open_closes(self, edge: float, sense: float) -> None:
+        """Modelled open by 8 degrees about a vertical edge: the lower limit is closed, the axis that edge."""
+        swing = turning(8.0 * sense)
+        swing[:3, 3] = np.array([edge, -0.2, 0.0]) - swing[:3, :3] @ [edge, -0.2, 0.0]
+        door = boxes_mesh([panel(INSET, -0.2, HIGH)])
+        mesh = joined(boxes_mesh(CABINET), door.transformed(swing))
+        labels = np.repeat([0, 1], [60, 12]).astype(np.int32)
+        segmentation = sk.Segmentation(labels, (sk.PartGuess("body"), sk.PartGuess("door")))
+        result = Found(mesh, segmentation, GeometricJoints().predict(mesh, segmentation))
+        joint = result.joint("door")
+        assert joint.limits is not None
+        assert np.degrees(joint.limits.lower) == pytest.approx(-8.0, abs=0.1)
+        assert abs(joint.origin[0] - edge) < 0.02
+        closed = result.travel("door", joint.limits.lower / joint.limits.upper)
+        faces = mesh.triangles[60:].reshape(-1, 3) + closed
+        assert np.ptp(faces[:, 1]) == pytest.approx(BOARD, abs=0.001)
+
+
+# How deep in a panel its hinge is depends on points drawn from the surface: half a board's thickness.
+DEPTH = 0.5 * BOARD + 0.001
+
+
+def assert_same_joints(before: Found, after: Found, degrees: float = 0.0, factor: float = 1.0) -> None:
+    """The same parts with the same joints, turned about the vertical and scaled; names may differ."""
+    turn = turning(degrees)[:3, :3]
+    assert len(after.joints) == len(before.joints) > 0
+    for old in before.joints:
+        (new,) = [j for j in after.joints if np.array_equal(after.faces(j.child), before.faces(old.child))]
+        assert new.kind == old.kind
+        np.testing.assert_allclose(new.axis, turn @ old.axis, atol=1e-6)
+        np.testing.assert_allclose(np.array(new.origin) / factor, turn @ old.origin, atol=DEPTH)
+        if old.limits is not None and new.limits is not None:
+            unit = factor if old.kind == "prismatic" else 1.0
+            assert new.limits.upper / unit == pytest.approx(old.limits.upper, rel=1e-3)
+
+
+class TestInvariance:
+    @pytest.mark.parametrize("name", [n for n in OPENING if n != "chest"])
+    @pytest.mark.parametrize(("degrees", "factor"), [(90.0, 1.0), (180.0, 0.01), (270.0, 1.0), (37.0, 100.0)])
+    def test_turned_and_scaled(self, name: str, degrees: float, factor: float) -> None:
+        mesh = boxes_mesh(OPENING[name])
+        assert_same_joints(found(mesh), found(turned(mesh, degrees, factor)), degrees, factor)
+
+    @pytest.mark.parametrize("factor", [0.001, 100.0])
+    def test_a_scaled_chest(self, factor: float) -> None:
+        mesh = boxes_mesh(OPENING["chest"])
+        assert_same_joints(found(mesh), found(turned(mesh, 0.0, factor)), 0.0, factor)
+
+    @pytest.mark.parametrize("name", OPENING)
+    def test_split_vertices(self, name: str) -> None:
+        mesh = boxes_mesh(OPENING[name])
+        split = Mesh(mesh.triangles.reshape(-1, 3), np.arange(3 * len(mesh.faces)).reshape(-1, 3))
+        assert_same_joints(found(mesh), found(split))
+
+    @pytest.mark.parametrize("name", ["cabinet", "sideboard", "dresser"])
+    def test_the_order_of_faces(self, name: str) -> None:
+        mesh = boxes_mesh(OPENING[name])
+        order = np.random.default_rng(5).permutation(len(mesh.faces))
+        before, after = found(mesh), found(Mesh(mesh.vertices, mesh.faces[order]))
+        assert after.kinds == before.kinds
+        for joint in before.joints:
+            np.testing.assert_array_equal(np.sort(order[after.faces(joint.child)]), before.faces(joint.child))
+            np.testing.assert_allclose(after.joint(joint.child).axis, joint.axis, atol=1e-6)
+            np.testing.assert_allclose(after.joint(joint.child).origin, joint.origin, atol=DEPTH)
+
+    @pytest.mark.parametrize("name", ["cabinet", "sideboard", "oven"])
+    def test_faces_that_are_there_twice(self, name: str) -> None:
+        mesh = boxes_mesh(OPENING[name])
+        before = found(mesh)
+        after = found(Mesh(mesh.vertices, np.concatenate([mesh.faces, mesh.faces[:, ::-1]])))
+        assert after.kinds == before.kinds
+        for joint in before.joints:
+            first = before.faces(joint.child)
+            np.testing.assert_array_equal(
+                after.faces(joint.child), np.concatenate([first, first + len(mesh.faces)])
+            )
+            np.testing.assert_allclose(after.joint(joint.child).axis, joint.axis, atol=1e-6)
+            np.testing.assert_allclose(after.joint(joint.child).origin, joint.origin, atol=DEPTH)
+
+    def test_faces_without_area_that_link_pieces(self) -> None:
+        """As strips of triangles leave them: from the body to the door, and from the door to the drawer."""
+        mesh = boxes_mesh(OPENING["sideboard"])
+        body, door, front = mesh.faces[0, 0], mesh.faces[72, 0], mesh.faces[96, 0]
+        links = [[body, body, door], [door, front, front]]
+        before, after = found(mesh), found(Mesh(mesh.vertices, np.concatenate([mesh.faces, links])))
+        assert after.kinds == before.kinds
+        for joint in before.joints:
+            faces = after.faces(joint.child)
+            np.testing.assert_array_equal(faces[faces < len(mesh.faces)], before.faces(joint.child))
+            np.testing.assert_allclose(after.joint(joint.child).axis, joint.axis, atol=1e-6)
+            np.testing.assert_allclose(after.joint(joint.child).origin, joint.origin, atol=DEPTH)
+
+    def test_two_runs_agree_to_the_bit(self) -> None:
+        one, two = (found(OPENING["sideboard"]) for _ in range(2))
+        assert one.joints == two.joints
+        np.testing.assert_array_equal(one.segmentation.face_part, two.segmentation.face_part)
+
+
+# A plain panel before an open box, square to the eye: by its shape alone a door.
+PANEL = [*carcass((-0.25, 0.25), (-0.2, 0.2), (0.0, 0.5)), panel((-0.249, 0.249), -0.22, (0.001, 0.499))]
+
+
+def labelled(label: str, name: str = "thing") -> tuple[sk.Joint, ...]:
+    """Joints of the panel when another segmenter gave it a label."""
+    mesh = boxes_mesh(PANEL)
+    labels = np.repeat([0, 1], [60, 12])
+    parts = (sk.PartGuess("case", label="body"), sk.PartGuess(name, label=label))
+    return GeometricJoints().predict(mesh, checked(sk.Segmentation(labels, parts), mesh))
+
+
+class TestLabels:
+    """The predictor takes what another segmenter calls a part as evidence."""
+
+    @pytest.mark.parametrize(
+        ("label", "kind"),
+        [
+            ("", "revolute"),
+            ("door", "revolute"),
+            ("Left Door", "revolute"),
+            ("drawer", "prismatic"),
+            ("sliding panel", "prismatic"),
+            ("drawers", "prismatic"),
+        ],
+    )
+    def test_a_label_decides_where_the_shape_leaves_room(self, label: str, kind: str) -> None:
+        (joint,) = labelled(label)
+        assert joint.kind == kind
+        assert (joint.parent, joint.child) == ("case", "thing")
+
+    def test_the_reason_is_given(self) -> None:
+        (joint,) = labelled("drawer")
+        assert "labelled 'drawer'" in joint.evidence
+        assert joint.name == "thing_slide"
+        assert joint.axis == (0.0, -1.0, 0.0)
+
+    def test_a_name_does_for_a_label(self) -> None:
+        (joint,) = labelled("", name="top_drawer")
+        assert joint.kind == "prismatic"
+
+    @pytest.mark.parametrize("label", ["", "drawer"])
+    def test_a_box_behind_the_front_makes_a_drawer_of_anything(self, label: str) -> None:
+        mesh = boxes_mesh(OPENING["sideboard"])
+        parts = (sk.PartGuess("body"), sk.PartGuess("thing", label=label))
+        (joint,) = GeometricJoints().predict(mesh, sk.Segmentation(np.repeat([0, 1], [96, 84]), parts))
+        assert joint.kind == "prismatic"
+        assert "a box hangs behind the front" in joint.evidence
+
+    def test_depth_alone_makes_a_drawer(self) -> None:
+        """Higher than wide, without a handle or a name: only the box behind the front speaks for a slide."""
+        bin_ = box((-0.15, 0.15), (-0.22, 0.15), (0.03, 0.46))
+        mesh = boxes_mesh([*carcass((-0.25, 0.25), (-0.2, 0.2), (0.0, 0.5)), bin_])
+        parts = (sk.PartGuess("body"), sk.PartGuess("thing"))
+        (joint,) = GeometricJoints().predict(mesh, sk.Segmentation(np.repeat([0, 1], [60, 12]), parts))
+        assert (joint.kind, joint.axis) == ("prismatic", (0.0, -1.0, 0.0))
+
+    def test_something_round_that_is_called_a_wheel_spins(self) -> None:
+        mesh = cart(0)
+        labels = np.concatenate([np.zeros(12), np.repeat([1, 2, 3, 4], 128)]).astype(np.int32)
+        parts = tuple(sk.PartGuess(n) for n in ("deck", "wheel_a", "wheel_b", "wheel_c", "wheel_d"))
+        joints = GeometricJoints().predict(mesh, sk.Segmentation(labels, parts))
+        assert [j.kind for j in joints] == ["continuous"] * 4
+        assert {j.parent for j in joints} == {"deck"}
+
+    def test_the_body_is_what_is_called_so(self) -> None:
+        """The base is the smaller of two boxes; without its label the larger would be the body."""
+        mesh = boxes_mesh(
+            [box((-0.1, 0.1), (-0.1, 0.1), (0, 0.2)), box((-0.3, 0.3), (-0.3, 0.3), (0.2, 0.25))]
+        )
+        labels = np.repeat([0, 1], 12)
+        for label, parent in (("base", "a"), ("", "b")):
+            parts = (sk.PartGuess("a", label=label), sk.PartGuess("b"))
+            (joint,) = GeometricJoints().predict(mesh, sk.Segmentation(labels, parts))
+            assert joint.parent == parent
+
+    def test_one_part_has_no_joint(self) -> None:
+        mesh = boxes_mesh(PANEL)
+        one = sk.Segmentation(np.zeros(72, dtype=np.int32), (sk.PartGuess("body"),))
+        assert GeometricJoints().predict(mesh, one) == ()
+
+
+class TestRoundness:
+    """A rim all around makes a disc, however few corners it has."""
+
+    @pytest.mark.parametrize(
+        ("corners", "is_round"), [(4, False), (6, False), (8, True), (12, True), (32, True)]
+    )
+    def test_coarse_discs_are_round_and_nuts_are_not(self, corners: int, is_round: bool) -> None:
+        angles = 2 * np.pi * np.arange(corners) / corners
+        rim = np.column_stack([np.cos(angles), np.zeros(corners), np.sin(angles)])
+        disc = np.concatenate([rim - [0, 0.2, 0], rim + [0, 0.2, 0]])
+        assert (round_axis(disc) == 1) == is_round
+
+    def test_a_rod_is_no_disc(self) -> None:
+        angles = 2 * np.pi * np.arange(24) / 24
+        rim = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(24)])
+        assert round_axis(np.concatenate([rim - [0, 0, 3], rim + [0, 0, 3]])) is None
+
+
+@pytest.mark.parametrize("degrees", [2.0, 8.0])
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_door_ajar_turns_about_its_own_edge_and_can_be_closed(degrees: float, side: int) -> None:
+    hinge = np.array([0.297 * side, -0.262, 0.0])
+    board = boxes_mesh([((-0.297, -0.272, 0.003), (0.297, -0.252, 0.797))])
+    ajar = np.eye(4)
+    ajar[:3, :3] = rotation(np.array([0.0, 0.0, side * np.radians(degrees)]))
+    ajar[:3, 3] = hinge - ajar[:3, :3] @ hinge
+    walls = [
+        ((-0.3, -0.25, 0.0), (-0.28, 0.25, 0.8)),
+        ((0.28, -0.25, 0.0), (0.3, 0.25, 0.8)),
+        ((-0.28, -0.25, 0.0), (0.28, 0.25, 0.02)),
+        ((-0.28, -0.25, 0.78), (0.28, 0.25, 0.8)),
+        ((-0.28, 0.23, 0.02), (0.28, 0.25, 0.78)),
+    ]
+    (joint,) = found(joined(boxes_mesh(walls), board.transformed(ajar))).joints
+    np.testing.assert_allclose(joint.origin[:2], hinge[:2], atol=0.011)  # within half the board's thickness
+    assert joint.axis == (0.0, 0.0, float(side))
+    assert joint.limits is not None
+    assert np.degrees(joint.limits.lower) == pytest.approx(-degrees, abs=0.01)

@@ -1,0 +1,159 @@
+"""Modifier `sweep`: ranges end where surfaces meet, and what is stuck is told and kept."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from simart_kit_plugins.modifiers.sweep import Sweep
+
+import simart_kit as sk
+from simart_kit.asset import JointKind
+from simart_kit.testing.meshes import boxes_mesh, cabinet_asset
+
+Bounds = tuple[Sequence[float], Sequence[float]]
+
+POST: Bounds = ((-0.2, 0.0, 0.0), (-0.01, 0.3, 1.0))
+# 1 wide and 0.02 thick; hinged at the origin it opens towards -y.
+DOOR: Bounds = ((0.0, 0.0, 0.0), (1.0, 0.02, 1.0))
+FAR: Bounds = ((5, 5, 0), (5.1, 5.1, 0.1))
+
+
+def wall(distance: float) -> Bounds:
+    """Before the door, parallel to it when closed: met at the angle whose sine is the distance."""
+    return (-1.0, -distance - 0.1, -0.5), (2.0, -distance, 1.5)
+
+
+def assembled(joint: sk.Joint, moving: Sequence[Bounds], still: Sequence[Bounds]) -> sk.Asset:
+    mesh = boxes_mesh([*still, *moving])
+    face_part = np.repeat([0, 1], [12 * len(still), 12 * len(moving)])
+    return sk.Asset("thing", mesh, face_part, (sk.Part("body"), sk.Part("door")), (joint,))
+
+
+def hinge(lower: float, upper: float, **more: Any) -> sk.Joint:
+    limits = sk.Limits(np.radians(lower), np.radians(upper))
+    return sk.Joint("hinge", "revolute", "body", "door", axis=(0, 0, -1), limits=limits, **more)
+
+
+def slide(lower: float, upper: float) -> sk.Joint:
+    return sk.Joint("slide", "prismatic", "body", "door", axis=(0, -1, 0), limits=sk.Limits(lower, upper))
+
+
+def test_a_free_joint_keeps_its_range_without_a_word() -> None:
+    asset = assembled(hinge(0, 90), [DOOR], [POST])
+    result = Sweep().modify(asset)
+    assert result.joints == asset.joints
+    assert result.notes == ()
+
+
+def test_a_hinge_ends_at_the_wall() -> None:
+    """Sine 0.5 is 30 degrees; three of a hundred points of the door pass by 31.1, and steps are of 1."""
+    asset = assembled(hinge(0, 90), [DOOR], [POST, wall(0.5)])
+    result = Sweep(Sweep.Options(steps=90)).modify(asset)
+    limits = result.joint("hinge").limits
+    assert limits is not None
+    assert limits.lower == 0.0
+    assert 30.0 <= np.degrees(limits.upper) <= 32.1
+    assert result.joint("hinge").flags == ()
+    (note,) = result.notes
+    assert (note.stage, note.level) == ("sweep", "info")
+    assert note.text.startswith("hinge: 0 degrees .. 90 degrees shortened to 0 degrees .. 3")
+
+
+def test_a_slide_ends_at_the_wall() -> None:
+    asset = assembled(slide(0.0, 0.5), [DOOR], [POST, wall(0.4)])
+    result = Sweep(Sweep.Options(steps=100)).modify(asset)
+    limits = result.joint("slide").limits
+    assert limits is not None
+    assert 0.4 <= limits.upper <= 0.4 + 0.003 * np.sqrt(2) + 0.5 / 100
+    (note,) = result.notes
+    assert note.text.startswith("slide: 0.000 m .. 0.500 m shortened to 0.000 m .. 0.4")
+
+
+def test_each_side_of_the_range_is_looked_at() -> None:
+    """A frame close behind the door stops it on the way in, the wall on the way out."""
+    frame: Bounds = ((0.5, 0.03, 0.0), (1.2, 0.3, 1.0))
+    asset = assembled(hinge(-45, 90), [DOOR], [POST, frame, wall(np.sin(np.radians(60)))])
+    limits = Sweep(Sweep.Options(steps=90)).modify(asset).joint("hinge").limits
+    assert limits is not None
+    assert -3.0 < np.degrees(limits.lower) <= 0.0
+    assert 60.0 <= np.degrees(limits.upper) <= 65.0
+
+
+def test_the_range_ends_at_a_step() -> None:
+    asset = assembled(hinge(0, 90), [DOOR], [POST, wall(0.5)])
+    limits = Sweep(Sweep.Options(steps=9)).modify(asset).joint("hinge").limits
+    assert limits is not None
+    assert np.degrees(limits.upper) == pytest.approx(30.0)
+
+
+class TestStuck:
+    def asset(self, **more: Any) -> sk.Asset:
+        """A wall 0.1 before the door: 6 of 90 degrees."""
+        return assembled(hinge(0, 90, **more), [DOOR], [POST, wall(0.1)])
+
+    def test_it_keeps_its_range_and_is_flagged(self) -> None:
+        asset = self.asset()
+        result = Sweep().modify(asset).joint("hinge")
+        assert result.limits == asset.joint("hinge").limits
+        (flag,) = result.flags
+        assert flag.startswith("sweep: blocked after ")
+        assert 5.0 <= float(flag.split()[-2]) <= 9.0
+        assert replace(result, flags=()) == asset.joint("hinge")
+
+    def test_a_warning_says_so(self) -> None:
+        (note,) = Sweep().modify(self.asset()).notes
+        assert (note.stage, note.level) == ("sweep", "warning")
+        assert note.text.startswith("hinge is blocked after ")
+        assert note.text.endswith("limits kept, look at it")
+
+    def test_earlier_flags_stay(self) -> None:
+        assert Sweep().modify(self.asset(flags=("doubtful",))).joint("hinge").flags[0] == "doubtful"
+
+    def test_what_counts_as_stuck_can_be_set(self) -> None:
+        joint = Sweep(Sweep.Options(least=0.02)).modify(self.asset()).joint("hinge")
+        assert joint.flags == ()
+        assert joint.limits is not None
+        assert joint.limits.upper < np.radians(10)
+
+
+def test_what_a_part_carries_meets_walls_for_it() -> None:
+    """A block, 0.4 deep, at the door's edge: sin + 0.4 cos is 0.5 at 5.9 degrees, the door's alone at 30."""
+    block: Bounds = ((0.8, -0.4, 0.0), (1.0, 0.0, 1.0))
+    parts = tuple(sk.Part(n) for n in ("body", "door", "block"))
+    mount = sk.Joint("mount", "fixed", "door", "block")
+    mesh = boxes_mesh([POST, wall(0.5), DOOR, block])
+    asset = sk.Asset("thing", mesh, np.repeat([0, 1, 2], [24, 12, 12]), parts, (mount, hinge(0, 20)))
+    limits = Sweep(Sweep.Options(steps=80)).modify(asset).joint("hinge").limits
+    assert limits is not None
+    assert 5.75 <= np.degrees(limits.upper) <= 7.5
+
+
+def test_what_hangs_on_the_door_does_not_block_it() -> None:
+    """The handle lies against the door; were it part of what stands still, the door could not open."""
+    handle: Bounds = ((0.4, -0.1, 0.3), (0.5, 0.0, 0.7))
+    parts = tuple(sk.Part(n) for n in ("body", "door", "handle"))
+    mount = sk.Joint("mount", "fixed", "door", "handle")
+    mesh = boxes_mesh([POST, DOOR, handle])
+    asset = sk.Asset("thing", mesh, np.repeat([0, 1, 2], 12), parts, (mount, hinge(0, 90)))
+    assert Sweep().modify(asset).joints == asset.joints
+
+
+@pytest.mark.parametrize("kind", ["fixed", "continuous", "ball", "free"])
+def test_joints_without_limits_are_left_alone(kind: JointKind) -> None:
+    asset = assembled(sk.Joint("joint", kind, "body", "door"), [DOOR], [POST, wall(0.1)])
+    result = Sweep().modify(asset)
+    assert result.joints == asset.joints
+    assert result.notes == ()
+
+
+def test_the_cabinet_is_free() -> None:
+    asset = cabinet_asset()
+    assert Sweep().modify(asset).joints == asset.joints
+
+
+@pytest.mark.parametrize("wrong", [{"steps": 1}, {"steps": 2.5}, {"least": 1.5}, {"least": -0.1}])
+def test_senseless_options_are_refused(wrong: dict[str, Any]) -> None:
+    with pytest.raises(ValueError, match=next(iter(wrong))):
+        Sweep.Options(**wrong)
