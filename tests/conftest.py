@@ -1,0 +1,28 @@
+"""What several test files share: real objects, converted once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+
+import pytest
+
+import simart_kit as sk
+
+from .real_objects import source
+
+
+@pytest.fixture(scope="session")
+def converted(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], sk.Result]:
+    """Convert an object of `real_objects` by its name, once; the example with its picture and recording."""
+    home = tmp_path_factory.mktemp("converted")
+
+    @cache
+    def convert(name: str) -> sk.Result:
+        example = name == "example"
+        with pytest.MonkeyPatch.context() as patch:
+            if not example:  # pictures take longest
+                patch.setattr("simart_kit.render.write_preview", lambda asset, path: path)
+            return sk.convert(source(name), out=home / name, record=example)
+
+    return convert

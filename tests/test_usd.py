@@ -17,6 +17,7 @@ from simart_kit.asset import Asset, Joint
 from simart_kit.kinematics import forward, sample_positions
 from simart_kit.testing.meshes import cabinet_asset, chain_asset, static_asset
 
+from .export_cases import overlapping_asset
 from .usd_cases import ASSETS, children, export, many_kinds_asset, triangles
 from .usd_readers import forward as usd_forward
 from .usd_readers import open_stage, parsed, read_bodies, read_inertials, read_joints
@@ -205,6 +206,21 @@ def test_parts_without_physics_are_bodies_without_mass_or_colliders(tmp_path: Pa
     assert set(read_bodies(stage)) == {"body", "door", "drawer"}
     assert read_inertials(stage) == {}
     assert "MeshShape" not in parsed(stage)
+
+
+def test_parts_that_overlap_and_share_no_joint_are_filtered(tmp_path: Path) -> None:
+    # Its door stands in both; a joint connects it to the body, which rules contact out by itself.
+    asset = overlapping_asset()
+    stage = open_stage(export(asset, tmp_path / "usd"))
+    filtered = [prim for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.FilteredPairsAPI)]
+    targets = {
+        p.GetName(): UsdPhysics.FilteredPairsAPI(p).GetFilteredPairsRel().GetTargets() for p in filtered
+    }
+    assert {name: [str(path) for path in paths] for name, paths in targets.items()} == {
+        "door": ["/cabinet/drawer"]
+    }
+    assert any("overlap" in s and "door and drawer (2 mm)" in s for s in UsdExporter().unsupported(asset))
+    assert not any("overlap" in s for s in UsdExporter().unsupported(cabinet_asset()))
 
 
 def test_a_free_joint_is_a_body_without_a_joint_and_is_told(tmp_path: Path) -> None:

@@ -116,7 +116,7 @@ def test_glass_is_transparent_and_a_part_of_two_materials_has_two_meshes(tmp_pat
         UsdShade.MaterialBindingAPI(stage.GetPrimAtPath(f"/glossy/{path}")).ComputeBoundMaterial()[0]
         for path in ("drawer/visual_1", "drawer/visual_2", "door/visual_1")
     ]
-    assert [m.GetPrim().GetName() for m in materials] == ["ch_ne_wood_01", "glass", "glass"]
+    assert [m.GetPrim().GetName() for m in materials] == ["chene_wood_01", "glass", "glass"]
     assert materials[1].ComputeSurfaceSource()[0].GetInput("opacity").Get() == 0.25
 
 

@@ -1,4 +1,4 @@
-"""What OBJ-based formats cannot show, and the sentences that say so."""
+"""What formats cannot show, and the sentences that say so."""
 
 from __future__ import annotations
 
@@ -21,18 +21,20 @@ def joined(found: Iterable[tuple[str, Sequence[str]]]) -> tuple[str, ...]:
     return tuple(f"{text}: {', '.join(names)}" for text, names in found if names)
 
 
+def hiding_colors(groups: Mapping[str, Sequence[Surface]]) -> list[str]:
+    """Names of the parts whose texture hides vertex colours that are not plain white."""
+    return [name for name, surfaces in groups.items() if any(map(loses_colors, surfaces))]
+
+
 def look_gaps(groups: Mapping[str, Sequence[Surface]]) -> tuple[str, ...]:
-    """A sentence for each way in which what is drawn differs from the surfaces of an asset, by part."""
+    """A sentence for each way in which OBJ files differ from the surfaces of an asset, by part."""
     maps = {
         part: any(s.material.normal_image or s.material.metallic_roughness_image for s in surfaces)
         for part, surfaces in groups.items()
     }
     return joined(
         (
-            (
-                "vertex colours beside a texture are left out",
-                [n for n, g in groups.items() if any(map(loses_colors, g))],
-            ),
+            ("vertex colours beside a texture are left out", hiding_colors(groups)),
             ("normal, metallic and roughness textures are left out", [n for n, has in maps.items() if has]),
             (
                 "a surface smaller than a speck is left out",

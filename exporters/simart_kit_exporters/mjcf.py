@@ -20,7 +20,7 @@ from simart_kit.surfaces import Surface, asset_surfaces
 from .gaps import joined, look_gaps, rigid
 from .mjcf_bodies import add_bodies, set_inertial
 from .obj_files import srgb_color, write_hull, write_surface, write_texture
-from .overlaps import overlapping_parts
+from .overlaps import overlapping_parts, told
 from .sheets import backed, backed_hull, is_speck
 
 if TYPE_CHECKING:
@@ -87,22 +87,12 @@ class Mjcf(Exporter):
             ),
             (
                 "MuJoCo ignores the transparency of textures",
-                [part for part, group in groups.items() if any(map(_is_see_through, group))],
+                [part for part, group in groups.items() if any(s.translucent for s in group)],
             ),
-            (
-                "collision shapes overlap at rest, so contact between the parts is off",
-                [f"{a} and {b} ({1000 * d:.2g} mm)" for (a, b), d in overlapping_parts(asset).items()],
-            ),
+            told(overlapping_parts(asset)),
         )
         restitution = ("MJCF has no restitution: contacts have MuJoCo's default softness",)
         return restitution + joined(found) + look_gaps(groups)
-
-
-def _is_see_through(surface: Surface) -> bool:
-    """Whether its texture, or the one that its vertex colours become, lets light through."""
-    image = surface.material.base_color_image
-    colors = (surface.colors, None if image is None else image.pixels)
-    return any(rgba is not None and rgba[..., 3].min() < 255 for rgba in colors)
 
 
 def _empty_spec(asset: Asset, timestep: float) -> mujoco.MjSpec:
@@ -207,7 +197,7 @@ def _add_excludes(spec: mujoco.MjSpec, asset: Asset) -> None:
         spec.add_exclude(name=f"{first}_{second}", bodyname1=first, bodyname2=second)
     if pairs:
         names = ", ".join(" and ".join(pair) for pair in pairs)
-        spec.comment = f"No contact between parts whose collision shapes overlap at rest: {names}"
+        spec.comment = f"No contact between parts whose shapes overlap at rest or on the way: {names}"
 
 
 def _add_mesh(spec: mujoco.MjSpec, file: str) -> str:

@@ -62,3 +62,11 @@ def define_physics_material(stage: Usd.Stage, path: Sdf.Path, material: Material
     api.CreateDynamicFrictionAttr(material.friction)
     api.CreateRestitutionAttr(material.restitution)
     return result
+
+
+def filter_contact(stage: Usd.Stage, first: Sdf.Path, second: Sdf.Path) -> None:
+    """Let two bodies pass through each other."""
+    from pxr import UsdPhysics
+
+    filtered = UsdPhysics.FilteredPairsAPI.Apply(stage.GetPrimAtPath(first))
+    filtered.CreateFilteredPairsRel().AddTarget(second)

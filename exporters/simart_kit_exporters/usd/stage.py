@@ -10,11 +10,12 @@ from simart_kit.kinematics import ordered_joints, rest_origin
 from simart_kit.mesh import VisualMaterial
 from simart_kit.surfaces import Surface, asset_surfaces
 
+from ..overlaps import overlapping_strangers
 from .geometry import define_surface
 from .joints import define_fixed_base, define_joint
 from .looks import by_material
 from .materials import define_look
-from .physics import define_body, define_collider, define_physics_material, set_mass
+from .physics import define_body, define_collider, define_physics_material, filter_contact, set_mass
 
 if TYPE_CHECKING:
     from pxr import Sdf, Usd, UsdShade
@@ -36,6 +37,7 @@ def asset_stage(asset: Asset, directory: Path) -> Usd.Stage:
         _define_part(stage, asset, part, slides)
         _define_surfaces(stage, part, surfaces[part.name], looks)
     _define_joints(stage, asset)
+    _filter_overlaps(stage, asset)
     return stage
 
 
@@ -110,6 +112,13 @@ def _define_joints(stage: Usd.Stage, asset: Asset) -> None:
     for joint in jointed:
         origin = rest_origin(asset, joint.child) - rest_origin(asset, joint.parent)
         define_joint(stage, scope.AppendChild(joint.name), joint, origin)
+
+
+def _filter_overlaps(stage: Usd.Stage, asset: Asset) -> None:
+    """Let parts that overlap pass through each other; those that a joint connects do so in USD anyway."""
+    root = stage.GetDefaultPrim().GetPath()
+    for first, second in overlapping_strangers(asset):
+        filter_contact(stage, root.AppendChild(first), root.AppendChild(second))
 
 
 def _scope(stage: Usd.Stage, name: str) -> Sdf.Path:
