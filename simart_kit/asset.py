@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -94,6 +95,8 @@ class Joint:
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0):
                 raise BadInputError(f"{where}: {name} {value} must be a finite number >= 0")
+        if not 0.0 <= self.confidence <= 1.0:
+            raise BadInputError(f"{where}: confidence {self.confidence} must lie in 0..1")
 
     @property
     def moves(self) -> bool:
@@ -253,23 +256,20 @@ class Asset:
 
     def part_index(self, name: str) -> int:
         """Its index in `parts` and `face_part`; raises BadInputError naming those that exist."""
-        for index, part in enumerate(self.parts):
-            if part.name == name:
-                return index
-        raise BadInputError(f"no part '{name}': parts are {', '.join(p.name for p in self.parts)}")
+        if name not in self._part_indices:
+            raise BadInputError(f"no part '{name}': parts are {', '.join(p.name for p in self.parts)}")
+        return self._part_indices[name]
 
     def joint(self, name: str) -> Joint:
         """The joint of this name; raises BadInputError naming those that exist."""
-        for joint in self.joints:
-            if joint.name == name:
-                return joint
-        raise BadInputError(
-            f"no joint '{name}': joints are {', '.join(j.name for j in self.joints) or 'none'}"
-        )
+        if name not in self._joints_by_name:
+            known = ", ".join(j.name for j in self.joints) or "none"
+            raise BadInputError(f"no joint '{name}': joints are {known}")
+        return self._joints_by_name[name]
 
     def joint_to(self, part: str) -> Joint | None:
         """The joint that moves a part; None for the root."""
-        return next((j for j in self.joints if j.child == part), None)
+        return self._joints_by_child.get(part)
 
     def at(self, positions: Positions) -> dict[str, FloatArray]:
         """Posed part frames: `world_T_part` (4, 4) by part name; see `kinematics.forward`."""
@@ -288,6 +288,18 @@ class Asset:
     def with_joints(self, changed: Mapping[str, Joint]) -> Asset:
         """The asset with some joints replaced, by name."""
         return replace(self, joints=tuple(changed.get(j.name, j) for j in self.joints))
+
+    @cached_property
+    def _part_indices(self) -> dict[str, int]:
+        return {part.name: index for index, part in enumerate(self.parts)}
+
+    @cached_property
+    def _joints_by_name(self) -> dict[str, Joint]:
+        return {joint.name: joint for joint in self.joints}
+
+    @cached_property
+    def _joints_by_child(self) -> dict[str, Joint]:
+        return {joint.child: joint for joint in self.joints}
 
     def _check_tree(self) -> None:
         names = {p.name for p in self.parts}
@@ -314,7 +326,8 @@ class Asset:
 
 def clean_name(text: str, fallback: str = "part") -> str:
     """Turn any text into `[a-z][a-z0-9_]*`; "world" is MuJoCo's and gets the fallback before it."""
-    name = re.sub(r"[^a-z0-9]+", "_", text.lower()).strip("_")
+    plain = unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()  # without accents
+    name = re.sub(r"[^a-z0-9]+", "_", plain.lower()).strip("_")
     if not name:
         return fallback
     if name == "world":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import zipfile
+import zlib
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -21,11 +22,21 @@ from .stages import Segmentation
 ASSET_FILE = "asset.json"
 ARRAYS_FILE = "parts.npz"
 _IMAGES = ("base_color_image", "metallic_roughness_image", "normal_image")
+# What reading a damaged .npz may raise; RuntimeError is for flags and methods that zipfile does not know.
+_DAMAGED = (OSError, ValueError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error)
 _MESH_ARRAYS = ("vertices", "faces", "normals", "uv", "colors", "face_material", "face_node")
 
 
 def save_asset(asset: Asset, folder: Path) -> Path:
-    """Write asset.json and parts.npz; returns the former. The same asset gives the same bytes."""
+    """Write asset.json and parts.npz; returns the former. The same asset gives the same bytes.
+
+    Raises:
+        BadInputError: a value that the format does not allow, such as a mass of 0; the field is named.
+    """
+    try:
+        table = AssetTable.of(asset)
+    except ValidationError as error:
+        raise BadInputError(f"asset '{asset.name}' cannot be stored: {_told(error)}") from error
     folder.mkdir(parents=True, exist_ok=True)
     arrays = _mesh_arrays(asset.mesh) | {"face_part": asset.face_part}
     for index, part in enumerate(asset.parts):
@@ -33,7 +44,7 @@ def save_asset(asset: Asset, folder: Path) -> Path:
             arrays[f"collision_{index}_{number}_vertices"] = shape.vertices
             arrays[f"collision_{index}_{number}_faces"] = shape.faces
     np.savez_compressed(folder / ARRAYS_FILE, allow_pickle=False, **arrays)
-    text = json.dumps(AssetTable.of(asset).model_dump(mode="json", by_alias=True), indent=1, allow_nan=False)
+    text = json.dumps(table.model_dump(mode="json", by_alias=True), indent=1, allow_nan=False)
     (folder / ASSET_FILE).write_text(text + "\n", encoding="utf-8")
     return folder / ASSET_FILE
 
@@ -48,15 +59,14 @@ def load_asset(folder: str | Path) -> Asset:
     path = folder / ASSET_FILE
     try:
         table = AssetTable.model_validate_json(path.read_text(encoding="utf-8"))
-    except FileNotFoundError as error:
+    except (FileNotFoundError, NotADirectoryError) as error:
         raise BadInputError(
             f"{folder} has no {ASSET_FILE}: give the output folder of a conversion"
         ) from error
     except (OSError, UnicodeDecodeError) as error:
         raise BadInputError(f"cannot read {path}: {error}") from error
     except ValidationError as error:
-        told = "; ".join(f"{'.'.join(map(str, e['loc'])) or 'file'}: {e['msg']}" for e in error.errors())
-        raise BadInputError(f"{path}: {told}") from error
+        raise BadInputError(f"{path}: {_told(error)}") from error
     arrays = _read_arrays(folder / ARRAYS_FILE)
     try:
         return _asset(table, arrays)
@@ -81,6 +91,11 @@ def save_value(value: object, folder: Path) -> None:
         np.savez_compressed(folder / "segmentation.npz", face_part=value.face_part, parts=names)
 
 
+def _told(error: ValidationError) -> str:
+    """Every wrong field and what is wrong with it, on one line."""
+    return "; ".join(f"{'.'.join(map(str, e['loc'])) or 'file'}: {e['msg']}" for e in error.errors())
+
+
 def _mesh_arrays(mesh: Mesh) -> dict[str, Any]:
     arrays = {name: getattr(mesh, name) for name in _MESH_ARRAYS if getattr(mesh, name) is not None}
     for index, material in enumerate(mesh.materials):
@@ -93,10 +108,17 @@ def _mesh_arrays(mesh: Mesh) -> dict[str, Any]:
 
 def _read_arrays(path: Path) -> dict[str, Any]:
     try:
-        with np.load(path, allow_pickle=False) as archive:
-            return {name: archive[name] for name in archive.files}
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
+        # Opened here: numpy leaves a file that it cannot read open.
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
+            arrays = {name: archive[name] for name in archive.files}
+    except FileNotFoundError as error:
+        raise BadInputError(f"cannot read {path}: no such file, and {ASSET_FILE} needs it") from error
+    except _DAMAGED as error:
         raise BadInputError(f"cannot read {path}: {error}") from error
+    words = [name for name, array in arrays.items() if array.dtype.kind not in "biuf"]
+    if words:
+        raise BadInputError(f"cannot read {path}: no numbers in {', '.join(words)}")
+    return arrays
 
 
 def _asset(table: AssetTable, arrays: dict[str, Any]) -> Asset:

@@ -14,22 +14,22 @@ Row4 = tuple[float, float, float, float]
 
 
 class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
 class MaterialTable(_Table):
     """What a part is made of."""
 
     name: str = Field(description="Key of the material table.")
-    density: float = Field(gt=0, allow_inf_nan=False, description="Density [kg/m^3].")
-    friction: float = Field(ge=0, allow_inf_nan=False, description="Sliding friction coefficient.")
+    density: float = Field(gt=0, description="Density [kg/m^3].")
+    friction: float = Field(ge=0, description="Sliding friction coefficient.")
     restitution: float = Field(ge=0, le=1, description="0 (no bounce) .. 1.")
 
 
 class MassTable(_Table):
     """Inertial properties of a part at rest."""
 
-    mass: float = Field(gt=0, allow_inf_nan=False, description="Mass [kg].")
+    mass: float = Field(gt=0, description="Mass [kg].")
     center: Vec3 = Field(description="Centre of mass in the asset frame [m].")
     inertia: Mat3 = Field(description="About the centre, along the asset's axes [kg*m^2].")
     method: str = Field(description="How the volume was found.")
@@ -54,8 +54,8 @@ class PartTable(_Table):
 class LimitsTable(_Table):
     """Range about the rest position 0."""
 
-    lower: float = Field(le=0, allow_inf_nan=False, description="Lowest position [rad or m].")
-    upper: float = Field(ge=0, allow_inf_nan=False, description="Highest position [rad or m].")
+    lower: float = Field(le=0, description="Lowest position [rad or m].")
+    upper: float = Field(ge=0, description="Highest position [rad or m].")
 
 
 class JointTable(_Table):

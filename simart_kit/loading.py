@@ -36,9 +36,13 @@ class Source:
 def source_path(source: str | Path) -> Path:
     """The file as a path; raises BadInputError when there is none."""
     path = Path(source)
-    if path.is_dir():
+    try:
+        folder, there = path.is_dir(), path.exists()
+    except OSError as error:  # a name that no file can have
+        raise BadInputError(f"no such file: {path}: {error.strerror}") from error
+    if folder:
         raise BadInputError(f"{path} is a folder: name one mesh file in it")
-    if not path.exists():
+    if not there:
         raise BadInputError(f"no such file: {path}")
     return path
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import shutil
+import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from .errors import OutputError
@@ -21,26 +23,29 @@ def staging(out: Path) -> Iterator[Path]:
     """A fresh folder inside `out`, removed at the end whatever happens; makes `out` and removes it if unused.
 
     Raises:
-        OutputError: `out` is a file, or cannot be written.
+        OutputError: `out` is a file, cannot be written, or another run is writing to it.
     """
-    created = [p for p in (out, *out.parents) if not p.exists()]
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        for stale in out.glob(f"{_STAGING}*"):
-            shutil.rmtree(stale)  # of a run that was killed
-        folder = Path(tempfile.mkdtemp(prefix=_STAGING, dir=out))
-    except OSError as error:
-        _remove_empty(created)
-        reason = error.strerror or str(error)
-        raise OutputError(
-            f"cannot write to output folder {out}: {reason}; choose another with --out"
-        ) from error
-    folder.chmod(0o755)  # mkdtemp's 0700 would be inherited by nothing, but readers of a crash need in
-    try:
-        yield folder
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
-        _remove_empty(created)
+    created: list[Path] = []
+    with ExitStack() as held:
+        try:
+            created = [p for p in (out, *out.parents) if not p.exists()]
+            out.mkdir(parents=True, exist_ok=True)
+            held.enter_context(_claimed(out))
+            for stale in out.glob(f"{_STAGING}*"):
+                shutil.rmtree(stale)  # of a run that was killed
+            folder = Path(tempfile.mkdtemp(prefix=_STAGING, dir=out))
+        except OSError as error:
+            _remove_empty(created)
+            reason = "it is a file" if isinstance(error, FileExistsError) else error.strerror or str(error)
+            raise OutputError(
+                f"cannot write to output folder {out}: {reason}; choose another with --out"
+            ) from error
+        folder.chmod(0o755)  # mkdtemp's 0700 would be inherited by nothing, but readers of a crash need in
+        try:
+            yield folder
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
+            _remove_empty(created)
 
 
 def commit(folder: Path, out: Path) -> tuple[str, ...]:
@@ -109,6 +114,33 @@ def left_over(folder: Path, out: Path) -> dict[str, str]:
         for name, text in _earlier_hashes(out).items()
         if Path(name).parts[0] not in written and (out / name).is_file()
     }
+
+
+@contextmanager
+def _claimed(out: Path) -> Iterator[None]:
+    """Keep other runs out of a folder, by a lock that the system drops however this process ends.
+
+    Raises:
+        OutputError: another run has it.
+    """
+    if sys.platform == "win32":
+        yield
+        return
+    import fcntl
+
+    handle = os.open(out, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise OutputError(
+                f"another run is writing to {out}: wait for it, or choose another folder with --out"
+            ) from error
+        except OSError:
+            pass  # a file system without locks
+        yield
+    finally:
+        os.close(handle)
 
 
 def _is_ours(target: Path, out: Path, earlier: dict[str, str]) -> bool:

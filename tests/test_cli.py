@@ -190,7 +190,7 @@ def test_a_failed_json_run_is_one_document_too(home, capfd):
         (["convert", "none.glb"], 2, "no such file: none.glb"),
         (["convert", "."], 2, "is a folder"),
         (["convert", "recipe.toml"], 2, "no plugin reads '.toml' files"),
-        (["convert", "cupboard.fake", "--recipe", "nobody"], 2, "unknown recipe 'nobody': known are"),
+        (["convert", "cupboard.fake", "--recipe", "nobody"], 2, "unknown recipe 'nobody': no such file"),
         ([*CONVERT, "--set", "segmenter.options.fault=raise"], 1, "RuntimeError: out of ideas"),
         ([*CONVERT, "--set", "segmenter.use=lasso"], 2, "unknown segmenter 'lasso': known are"),
         ([*CONVERT, "--unit", "furlong"], 2, "unit 'furlong'"),
@@ -240,14 +240,29 @@ def test_an_interrupt_in_a_stage_is_clean(home, capfd):
     assert not (home / "out").exists()
 
 
-def test_ctrl_c_ends_a_run_that_hangs_and_leaves_nothing(home):
+def test_an_interrupted_json_run_prints_one_document(home, capfd):
+    assert run([*CONVERT, "--json", "--set", "segmenter.options.fault=interrupt"]) == 130
+
+    assert json.loads(capfd.readouterr().out) == {"ok": False, "error": "interrupted", "exit_code": 130}
+
+
+def test_a_failed_stage_tells_where_its_input_is(home, capfd):
+    assert run([*CONVERT, "-q", "--set", "segmenter.options.fault=raise"]) == 1
+
+    (line,) = capfd.readouterr().err.splitlines()
+    kept = Path(re.search(r"; its input and the traceback are in (\S+)$", line).group(1))
+    assert sorted(path.name for path in kept.iterdir()) == ["error.txt", "input"]
+
+
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM], ids=["ctrl-c", "kill"])
+def test_a_signal_ends_a_run_that_hangs_and_leaves_nothing(home, sent):
     running = process(*CONVERT, "--set", "segmenter.options.fault=hang")
     while not any((home / "out").rglob(".simart-kit-*")):
         assert running.poll() is None
         time.sleep(0.02)
     assert running.stderr.readline().startswith("load fake")
     time.sleep(0.1)
-    running.send_signal(signal.SIGINT)
+    running.send_signal(sent)
 
     code, _, err = finish(running)
 
@@ -263,6 +278,31 @@ def test_a_reader_that_goes_away_is_no_error(home):
     assert running.stderr.read() == ""
     assert running.wait() == 141
     running.stderr.close()
+
+
+def test_letters_that_the_output_lacks_do_not_end_a_run(home, monkeypatch):
+    monkeypatch.setenv("PYTHONIOENCODING", "ascii")
+
+    code, out, err = finish(process(*CONVERT, "--out", "Küche"))
+
+    assert (code, Path("Küche", "asset.json").is_file()) == (0, True), err
+    assert "files in K\\xfcche:" in out
+
+
+def test_the_advice_how_to_look_at_a_run_can_be_pasted(home, capfd):
+    assert run([*CONVERT[:-1], "--out", "my cupboard", "-v"]) == 0
+
+    assert capfd.readouterr().out.splitlines()[-1] == "look at it: simart-kit inspect 'my cupboard'"
+
+
+@pytest.mark.parametrize("group", ["recipes", "plugins"])
+def test_a_group_alone_shows_its_commands(home, capfd, group):
+    assert run([group]) == 2
+
+    out, err = capfd.readouterr()
+    assert out == ""
+    assert re.search(r"^  list ", err, re.MULTILINE)
+    assert re.search(r"^  show ", err, re.MULTILINE)
 
 
 def test_help_and_versions(home, capfd):

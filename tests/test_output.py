@@ -2,6 +2,8 @@
 
 import json
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -54,6 +56,32 @@ def test_staging_removes_what_a_killed_run_left(tmp_path):
     write(tmp_path / ".simart-kit-dead", x_txt="1")
     with staging(tmp_path):
         assert not (tmp_path / ".simart-kit-dead").exists()
+
+
+def test_a_folder_that_a_run_writes_to_is_closed_to_another(tmp_path):
+    with staging(tmp_path) as work:
+        with pytest.raises(OutputError, match="another run is writing to"), staging(tmp_path):
+            pytest.fail("two runs write to one folder")
+        assert work.is_dir()
+
+    with staging(tmp_path):
+        pass
+
+
+def test_a_run_that_was_killed_does_not_keep_its_folder_closed(tmp_path):
+    code = (
+        "import os, pathlib, simart_kit.output as o; s = o.staging(pathlib.Path()); next(s.gen); os._exit(1)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=False).returncode == 1
+    assert list(tmp_path.glob(".simart-kit-*"))
+
+    with staging(tmp_path) as work:
+        assert list(tmp_path.iterdir()) == [work]
+
+
+def test_a_name_that_no_folder_can_have_is_told(tmp_path):
+    with pytest.raises(OutputError, match="name too long"), staging(tmp_path / ("x" * 300)):
+        pytest.fail("there is no such folder")
 
 
 @pytest.mark.parametrize("below", ["", "deep/er"])

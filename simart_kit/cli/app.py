@@ -8,6 +8,7 @@ import typer
 
 from . import plugins, recipes
 from .check import check
+from .common import help_when_alone
 from .convert import convert
 from .export import export
 from .inspect import inspect
@@ -40,6 +41,4 @@ def start(
     ] = False,
 ) -> None:
     """Turn a static 3D mesh into a simulation-ready articulated asset: URDF, MJCF and USD."""
-    if context.invoked_subcommand is None:
-        typer.echo(context.get_help(), err=True)
-        raise typer.Exit(2)
+    help_when_alone(context)

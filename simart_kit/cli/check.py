@@ -9,7 +9,10 @@ from .options import Folder, Json, Verbose
 
 
 def check(folder: Folder, json: Json = False, verbose: Verbose = False) -> None:
-    """Check that a folder's asset is ready for simulation; exit code 1 if one check fails."""
+    """Check that an asset is ready for simulation.
+
+    The exit code is 1 if a check fails.
+    """
     from ..asset_io import load_asset
     from ..checks import run_checks
     from .summary import verdict

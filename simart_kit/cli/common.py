@@ -10,10 +10,19 @@ from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import typer
+
 from ..errors import PluginError
 
 if TYPE_CHECKING:
     from ..plugins import Plugins
+
+
+def help_when_alone(context: typer.Context) -> None:
+    """Callback of a group of commands: without one of them, show which there are."""
+    if context.invoked_subcommand is None:
+        typer.echo(context.get_help(), err=True)
+        raise typer.Exit(2)
 
 
 def load_plugins(files: Sequence[Path] | None) -> Plugins:

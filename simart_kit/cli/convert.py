@@ -21,7 +21,9 @@ def convert(
     out: Annotated[
         Path | None, typer.Option("--out", "-o", metavar="DIR", help="Output folder; default: out/NAME.")
     ] = None,
-    name: Annotated[str | None, typer.Option(help="Name of the asset; default: the file's.")] = None,
+    name: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Name of the asset; default: the file's.")
+    ] = None,
     sets: Sets = None,
     up: Annotated[
         Up | None,
@@ -41,7 +43,10 @@ def convert(
     verbose: Verbose = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but errors.")] = False,
 ) -> None:
-    """Turn a mesh file into an articulated asset in every format of a recipe."""
+    """Turn a mesh file into an articulated asset.
+
+    It is written in every format of the recipe.
+    """
     from ..pipeline import convert as run
     from .progress import progress
     from .summary import document, text

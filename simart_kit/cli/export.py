@@ -16,7 +16,10 @@ def export(
     plugin: PluginFiles = None,
     verbose: Verbose = False,
 ) -> None:
-    """Write one more format from a folder's asset.json, which may have been edited; nothing runs again."""
+    """Write one more format of an asset.
+
+    It comes from the folder's asset.json, which may have been edited; nothing runs again.
+    """
     from ..exports import export_folder
 
     exported = export_folder(folder, to, load_plugins(plugin))

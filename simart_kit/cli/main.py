@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
+import signal
 import sys
 import traceback
 from collections.abc import Sequence
@@ -20,6 +22,10 @@ FAILED, USAGE, INTERRUPTED, READER_GONE = 1, 2, 130, 141
 
 def main() -> None:
     """Run the process's command line and exit."""
+    # What `kill`, `timeout` and containers send; unlike its default, this lets a run tidy up.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")  # a terminal may not know every letter of a path
     sys.exit(run(sys.argv[1:]))
 
 
@@ -33,6 +39,7 @@ def run(arguments: Sequence[str]) -> int:
             sys.stdout.flush()
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
+        _print_failure("interrupted", INTERRUPTED, flags)
         return INTERRUPTED
     except BrokenPipeError:
         # Python flushes stdout once more when it exits, and would complain then.
@@ -47,9 +54,9 @@ def _run(arguments: Sequence[str], flags: Flags) -> int:
     except typer.Exit as end:
         return end.exit_code
     except typer.TyperException as error:
-        return _told(error.format_message(), USAGE, Flags(json=flags.json))
+        return _told(error.format_message().replace("Value error, ", ""), USAGE, Flags(json=flags.json))
     except SimartKitError as error:
-        return _told(str(error), error.exit_code, flags)
+        return _told("; ".join([str(error), *getattr(error, "__notes__", ())]), error.exit_code, flags)
     except BrokenPipeError:
         raise
     except Exception as error:
@@ -63,6 +70,11 @@ def _told(message: str, code: int, flags: Flags) -> int:
     if flags.verbose:
         traceback.print_exc(file=sys.stderr)
     print(f"error: {line}", file=sys.stderr)
-    if flags.json:
-        print(json.dumps({"ok": False, "error": line, "exit_code": code}))
+    _print_failure(line, code, flags)
     return code
+
+
+def _print_failure(text: str, code: int, flags: Flags) -> None:
+    """The one document of a `--json` run that fails."""
+    if flags.json:
+        print(json.dumps({"ok": False, "error": text, "exit_code": code}))

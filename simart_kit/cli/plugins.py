@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from .common import print_json, print_rows, stdout_kept
+from .common import help_when_alone, print_json, print_rows, stdout_kept
 from .options import Json, PluginFiles, Verbose
 
 if TYPE_CHECKING:
     from ..plugins import Plugins, Registration
 
 app = typer.Typer(help="List and show plugins.", rich_markup_mode=None)
+app.callback(invoke_without_command=True)(help_when_alone)
 
 
 @app.command("list")
@@ -25,7 +26,10 @@ def list_plugins(
     ] = False,
     verbose: Verbose = False,
 ) -> None:
-    """Every stage, loader and observer with the plugin it comes from, and what did not load."""
+    """All stages, loaders and observers.
+
+    Each with the plugin that it comes from; and what did not load.
+    """
     from ..plugins import Plugins
 
     with stdout_kept(json):

@@ -6,18 +6,20 @@ from typing import Annotated
 
 import typer
 
-from .common import load_plugins, print_rows
+from .common import help_when_alone, load_plugins, print_rows
 from .options import PluginFiles, Sets, Verbose
 
 app = typer.Typer(help="List, show and check recipes.", rich_markup_mode=None)
+app.callback(invoke_without_command=True)(help_when_alone)
 Source = Annotated[str, typer.Argument(metavar="NAME|FILE", help="Recipe.")]
 
 
 @app.command("list")
 def list_recipes(plugin: PluginFiles = None, verbose: Verbose = False) -> None:
-    """All recipes that `convert --recipe` knows by name."""
+    """The names that `convert --recipe` knows."""
     from ..errors import SimartKitError
-    from ..recipe import known_recipes, load_recipe
+    from ..recipe import load_recipe
+    from ..recipe_files import known_recipes
 
     plugins = load_plugins(plugin)
     rows = []
@@ -31,7 +33,10 @@ def list_recipes(plugin: PluginFiles = None, verbose: Verbose = False) -> None:
 
 @app.command()
 def show(source: Source, sets: Sets = None, plugin: PluginFiles = None, verbose: Verbose = False) -> None:
-    """A recipe with its parents and every option spelled out, as TOML."""
+    """Show a recipe as TOML.
+
+    Its parents and all options are spelled out.
+    """
     from ..recipe import load_recipe
     from ..toml_text import recipe_text
 
@@ -40,7 +45,10 @@ def show(source: Source, sets: Sets = None, plugin: PluginFiles = None, verbose:
 
 @app.command()
 def check(source: Source, sets: Sets = None, plugin: PluginFiles = None, verbose: Verbose = False) -> None:
-    """Check a recipe; every mistake is told at once, with exit code 2."""
+    """Check a recipe.
+
+    Every mistake is told at once; the exit code is then 2.
+    """
     from ..recipe import load_recipe
 
     recipe = load_recipe(source, load_plugins(plugin), sets or ())

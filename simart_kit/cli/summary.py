@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import math
+import shlex
+import shutil
+import sys
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -39,7 +43,7 @@ def text(result: Result, verbose: bool = False) -> str:
     lines.append(f"files in {result.folder}:")
     lines += [f"  {_WORDS.get(key, key):<10} {path}" for key, path in result.paths.items()]
     if "recording" in result.paths:
-        lines.append(f"look at it: simart-kit inspect {result.folder}")
+        lines.append(f"look at it: {_program()} inspect {shlex.quote(str(result.folder))}")
     return "\n".join(lines)
 
 
@@ -64,6 +68,12 @@ def travel(joint: Joint) -> str:
 def verdict(check: CheckResult) -> str:
     """One line a check."""
     return f"{'ok  ' if check.passed else 'FAIL'}  {check.name}: {check.text}"
+
+
+def _program() -> str:
+    """The command's name, or the path that it was called by where the shell does not find the name."""
+    called = Path(sys.argv[0])
+    return str(called) if called.name == "simart-kit" and not shutil.which(called.name) else "simart-kit"
 
 
 def _size(asset: Asset) -> str:
