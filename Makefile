@@ -67,9 +67,11 @@ $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
 
 $(APP): pyproject.toml constraints.txt | $(BIN)/python
+	@echo "installing into $(VENV): a minute or two, about 2 GB"
 	$(PIP) --editable .
 	@touch $@
 
 $(DEV): pyproject.toml constraints.txt | $(BIN)/python
+	@echo "installing the test and lint tools too into $(VENV)"
 	$(PIP) --editable '.[dev]'
 	@touch $@

@@ -76,6 +76,13 @@ def test_only_motion_has_times(cabinet):
     assert all(list(c.timeline_names) == ["sweep"] for c in chunks(cabinet) if not c.is_static)
 
 
+def test_times_are_whole_microseconds_which_pyarrow_reads_without_pandas(cabinet):
+    timed = [chunk.to_record_batch().column("sweep") for chunk in chunks(cabinet) if not chunk.is_static]
+    stamps = np.concatenate([np.array(column.cast("int64")) for column in timed])
+    assert len(stamps) > 20
+    assert not (stamps % 1000).any()
+
+
 @pytest.mark.parametrize(
     ("asset", "joint", "part"),
     [
