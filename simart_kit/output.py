@@ -123,24 +123,29 @@ def _claimed(out: Path) -> Iterator[None]:
     Raises:
         OutputError: another run has it.
     """
-    if sys.platform == "win32":
-        yield
-        return
-    import fcntl
-
-    handle = os.open(out, os.O_RDONLY)
+    handle = None if sys.platform == "win32" else os.open(out, os.O_RDONLY)
     try:
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
+        if handle is not None and not _locked(handle):
             raise OutputError(
                 f"another run is writing to {out}: wait for it, or choose another folder with --out"
-            ) from error
-        except OSError:
-            pass  # a file system without locks
+            )
         yield
     finally:
-        os.close(handle)
+        if handle is not None:
+            os.close(handle)
+
+
+def _locked(handle: int) -> bool:
+    """Take the lock of an open folder; False when another process has it. Without locks there is no other."""
+    import fcntl
+
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:
+        return True  # a file system without locks
+    return True
 
 
 def _is_ours(target: Path, out: Path, earlier: dict[str, str]) -> bool:

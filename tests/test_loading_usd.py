@@ -28,7 +28,7 @@ def new_stage(path: Path, up: str = "Z", metres: float = 1.0) -> Usd.Stage:
     stage = Usd.Stage.CreateNew(str(path))
     UsdGeom.SetStageUpAxis(stage, up)
     UsdGeom.SetStageMetersPerUnit(stage, metres)
-    stage.SetDefaultPrim(UsdGeom.Xform.Define(stage, "/root").GetPrim())
+    stage.SetDefaultPrim(UsdGeom.Xform.Define(stage, "/top").GetPrim())
     return stage
 
 
@@ -47,12 +47,12 @@ def add_box(stage: Usd.Stage, path: str, size: tuple[float, float, float]) -> Us
 
 
 def add_square(stage: Usd.Stage) -> UsdGeom.Mesh:
-    return add_mesh(stage, "/root/square", SQUARE, [[0, 1, 2, 3]])
+    return add_mesh(stage, "/top/square", SQUARE, [[0, 1, 2, 3]])
 
 
 def add_material(stage: Usd.Stage, name: str, **values: tuple[Any, Any]) -> tuple[UsdShade.Material, Any]:
-    material = UsdShade.Material.Define(stage, f"/root/{name}")
-    shader = UsdShade.Shader.Define(stage, f"/root/{name}/surface")
+    material = UsdShade.Material.Define(stage, f"/top/{name}")
+    shader = UsdShade.Shader.Define(stage, f"/top/{name}/surface")
     shader.CreateIdAttr("UsdPreviewSurface")
     for key, (kind, value) in values.items():
         shader.CreateInput(key, kind).Set(value)
@@ -114,7 +114,7 @@ def test_unit_and_up_axis(
     suffix: str, up: str, size: tuple[float, ...], tmp_path: Path, plugins: Plugins
 ) -> None:
     stage = new_stage(tmp_path / f"a.{suffix}", up, 0.01)
-    add_box(stage, "/root/box", (60, 40, 80))
+    add_box(stage, "/top/box", (60, 40, 80))
     mesh = read(stage, plugins)
     np.testing.assert_allclose(np.ptp(mesh.vertices, axis=0), size, rtol=1e-6)
     assert volume(mesh) == pytest.approx(0.192, rel=1e-5)
@@ -122,11 +122,11 @@ def test_unit_and_up_axis(
 
 def test_transforms_references_and_instances(tmp_path: Path, plugins: Plugins) -> None:
     part = new_stage(tmp_path / "part.usda")
-    add_box(part, "/root/box", (1, 2, 3))
+    add_box(part, "/top/box", (1, 2, 3))
     part.GetRootLayer().Save()
     stage = new_stage(tmp_path / "a.usda")
     for name, move, scale in (("a", (10, 0, 0), (1, 1, 1)), ("b", (0, 0, 5), (-1, 1, 2))):
-        node = UsdGeom.Xform.Define(stage, f"/root/{name}")
+        node = UsdGeom.Xform.Define(stage, f"/top/{name}")
         node.AddTranslateOp().Set(Gf.Vec3d(*move))
         node.AddScaleOp().Set(Gf.Vec3f(*scale))
         node.GetPrim().GetReferences().AddReference("./part.usda")
@@ -143,12 +143,12 @@ def test_transforms_references_and_instances(tmp_path: Path, plugins: Plugins) -
 
 def test_point_instancers(tmp_path: Path, plugins: Plugins) -> None:
     stage = new_stage(tmp_path / "a.usda")
-    instancer = UsdGeom.PointInstancer.Define(stage, "/root/many")
+    instancer = UsdGeom.PointInstancer.Define(stage, "/top/many")
     instancer.AddTranslateOp().Set(Gf.Vec3d(0, 0, 100))
     for name, size in (("small", (1, 1, 1)), ("large", (2, 2, 2))):
-        UsdGeom.Xform.Define(stage, f"/root/many/{name}").AddTranslateOp().Set(Gf.Vec3d(0, 7, 0))
-        add_box(stage, f"/root/many/{name}/box", size)
-        instancer.GetPrototypesRel().AddTarget(f"/root/many/{name}")
+        UsdGeom.Xform.Define(stage, f"/top/many/{name}").AddTranslateOp().Set(Gf.Vec3d(0, 7, 0))
+        add_box(stage, f"/top/many/{name}/box", size)
+        instancer.GetPrototypesRel().AddTarget(f"/top/many/{name}")
     instancer.CreateProtoIndicesAttr([0, 1, 0])
     instancer.CreatePositionsAttr([Gf.Vec3f(0, 0, 0), Gf.Vec3f(10, 0, 0), Gf.Vec3f(20, 0, 0)])
     instancer.DeactivateId(2)
@@ -160,13 +160,13 @@ def test_point_instancers(tmp_path: Path, plugins: Plugins) -> None:
 
 def test_what_is_not_shown_is_not_read(tmp_path: Path, plugins: Plugins) -> None:
     stage = new_stage(tmp_path / "a.usda")
-    add_box(stage, "/root/seen", (1, 1, 1))
-    add_box(stage, "/root/guide", (2, 2, 2)).CreatePurposeAttr("guide")
-    add_box(stage, "/root/proxy", (2, 2, 2)).CreatePurposeAttr("proxy")
-    UsdGeom.Xform.Define(stage, "/root/hidden").MakeInvisible()
-    add_box(stage, "/root/hidden/box", (2, 2, 2))
-    add_box(stage, "/root/off", (2, 2, 2)).GetPrim().SetActive(False)
-    UsdGeom.Sphere.Define(stage, "/root/ball")
+    add_box(stage, "/top/seen", (1, 1, 1))
+    add_box(stage, "/top/guide", (2, 2, 2)).CreatePurposeAttr("guide")
+    add_box(stage, "/top/proxy", (2, 2, 2)).CreatePurposeAttr("proxy")
+    UsdGeom.Xform.Define(stage, "/top/hidden").MakeInvisible()
+    add_box(stage, "/top/hidden/box", (2, 2, 2))
+    add_box(stage, "/top/off", (2, 2, 2)).GetPrim().SetActive(False)
+    UsdGeom.Sphere.Define(stage, "/top/ball")
     mesh = read(stage, plugins)
     assert np.ptp(mesh.vertices, axis=0).max() == pytest.approx(1)
     (warning,) = warnings(mesh)
@@ -177,11 +177,11 @@ def test_polygons_and_left_handed_meshes(tmp_path: Path, plugins: Plugins) -> No
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     stage = new_stage(tmp_path / "a.usda")
     vertices, _ = box((0, 0, 0), (1, 1, 1))
-    add_mesh(stage, "/root/right", vertices, quads)
-    left = add_mesh(stage, "/root/left", vertices + 5, [q[::-1] for q in quads])
+    add_mesh(stage, "/top/right", vertices, quads)
+    left = add_mesh(stage, "/top/left", vertices + 5, [q[::-1] for q in quads])
     left.CreateOrientationAttr("leftHanded")
     pentagon = [(np.cos(a), np.sin(a), 0) for a in np.linspace(0, 2 * np.pi, 5, endpoint=False)]
-    add_mesh(stage, "/root/pentagon", pentagon, [[0, 1, 2, 3, 4]])
+    add_mesh(stage, "/top/pentagon", pentagon, [[0, 1, 2, 3, 4]])
     mesh = read(stage, plugins)
     assert [int((mesh.face_node == n).sum()) for n in range(3)] == [12, 12, 3]
     assert [volume(mesh, mesh.face_node == n) for n in range(2)] == pytest.approx([1, 1], rel=1e-4)
@@ -192,7 +192,7 @@ def test_polygons_and_left_handed_meshes(tmp_path: Path, plugins: Plugins) -> No
 def test_normals_a_corner_split_vertices_only_where_they_differ(tmp_path: Path, plugins: Plugins) -> None:
     stage = new_stage(tmp_path / "a.usda")
     roof = add_mesh(
-        stage, "/root/roof", [(0, 0, 0), (0, 1, 0), (1, 0, 1), (1, 1, 1), (2, 0, 0), (2, 1, 0)],
+        stage, "/top/roof", [(0, 0, 0), (0, 1, 0), (1, 0, 1), (1, 1, 1), (2, 0, 0), (2, 1, 0)],
         [[0, 2, 3, 1], [2, 4, 5, 3]],
     )  # fmt: skip
     roof.CreateNormalsAttr([Gf.Vec3f(-1, 0, 1)] * 4 + [Gf.Vec3f(1, 0, 1)] * 4)
@@ -251,7 +251,7 @@ def test_metallic_and_roughness_pictures_become_one(tmp_path: Path, plugins: Plu
     for name, value, size in (("metal", 200, 8), ("rough", 90, 4)):
         Pillow.fromarray(np.full((size, size), value, dtype=np.uint8)).save(tmp_path / f"{name}.png")
     stage = textured(tmp_path)
-    shader = UsdShade.Shader.Get(stage, "/root/paint/surface")
+    shader = UsdShade.Shader.Get(stage, "/top/paint/surface")
     connect_texture(stage, shader, "metallic", "./metal.png", "r")
     connect_texture(stage, shader, "roughness", "./rough.png", "r")
     (look,) = read(stage, plugins).materials
@@ -262,7 +262,7 @@ def test_metallic_and_roughness_pictures_become_one(tmp_path: Path, plugins: Plu
 
 def test_materials_of_subsets(tmp_path: Path, plugins: Plugins) -> None:
     stage = new_stage(tmp_path / "a.usda")
-    mesh = add_mesh(stage, "/root/strip", [(x, y, 0) for x in range(4) for y in (0, 1)],
+    mesh = add_mesh(stage, "/top/strip", [(x, y, 0) for x in range(4) for y in (0, 1)],
                     [[0, 2, 3, 1], [2, 4, 5, 3], [4, 6, 7, 5]])  # fmt: skip
     color = Sdf.ValueTypeNames.Color3f
     red, _ = add_material(stage, "red", diffuseColor=(color, (1, 0, 0)))

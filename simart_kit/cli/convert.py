@@ -10,28 +10,31 @@ import typer
 from .common import load_plugins, print_json, stdout_kept, warn
 from .options import Json, PluginFiles, Sets, Verbose
 
-Up = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
+RecipeName = Annotated[
+    str, typer.Option("--recipe", "-r", metavar="NAME|FILE", help="Recipe; see `recipes list`.")
+]
+Out = Annotated[
+    Path | None, typer.Option("--out", "-o", metavar="DIR", help="Output folder; default: out/NAME.")
+]
+Up = Annotated[
+    Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None,
+    typer.Option(metavar="+x|-x|..|-z", help="Up axis, where the file says it wrong or not at all."),
+]
+Unit = Annotated[
+    str | None, typer.Option(metavar="mm|cm|m|in|ft|NUMBER", help="The file's unit, or metres a unit.")
+]
 
 
 def convert(
     mesh: Annotated[Path, typer.Argument(metavar="MESH", help="Mesh file.")],
-    recipe: Annotated[
-        str, typer.Option("--recipe", "-r", metavar="NAME|FILE", help="Recipe; see `recipes list`.")
-    ] = "default",
-    out: Annotated[
-        Path | None, typer.Option("--out", "-o", metavar="DIR", help="Output folder; default: out/NAME.")
-    ] = None,
+    recipe: RecipeName = "default",
+    out: Out = None,
     name: Annotated[
         str | None, typer.Option(metavar="NAME", help="Name of the asset; default: the file's.")
     ] = None,
     sets: Sets = None,
-    up: Annotated[
-        Up | None,
-        typer.Option(metavar="+x|-x|..|-z", help="Up axis, where the file says it wrong or not at all."),
-    ] = None,
-    unit: Annotated[
-        str | None, typer.Option(metavar="mm|cm|m|in|ft|NUMBER", help="The file's unit, or metres a unit.")
-    ] = None,
+    up: Up = None,
+    unit: Unit = None,
     height: Annotated[float | None, typer.Option(metavar="M", help="Real height of the object [m].")] = None,
     scale: Annotated[float | None, typer.Option(metavar="F", help="Factor on the size.")] = None,
     floating: Annotated[
