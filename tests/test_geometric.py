@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from simart_kit_plugins.geometric.predictor import GeometricJoints
 from simart_kit_plugins.geometric.rounds import round_axis
 from simart_kit_plugins.geometric.segmenter import Geometric
@@ -435,3 +436,11 @@ def test_a_door_ajar_turns_about_its_own_edge_and_can_be_closed(degrees: float, 
     assert joint.axis == (0.0, 0.0, float(side))
     assert joint.limits is not None
     assert np.degrees(joint.limits.lower) == pytest.approx(-degrees, abs=0.01)
+
+
+def test_a_noisy_skin_is_told_and_taken_as_static() -> None:
+    skin = trimesh.creation.box((0.6, 0.5, 0.9)).subdivide().subdivide().subdivide().subdivide()
+    rough = skin.vertices + np.random.default_rng(0).normal(scale=0.02, size=skin.vertices.shape)
+    segmentation = Geometric().segment(Mesh(rough, skin.faces))
+    assert len(segmentation.parts) == 1
+    assert [n.level for n in segmentation.notes if "fused skin" in n.text] == ["warning"]

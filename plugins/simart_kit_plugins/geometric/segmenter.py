@@ -60,7 +60,8 @@ class Geometric(Segmenter):
 
 
 def _find(scene: Scene, segments: Segments) -> list[Mover]:
-    if segments.count == 1:
+    # So many patches are the noise of a scanned or generated skin: what they suggest is not there.
+    if segments.count == 1 or (segments.patches and segments.count > _MOST_PIECES):
         return []
     contacts = Contacts(scene)
     movers = front_movers(scene, contacts, segments.patches)
