@@ -68,6 +68,8 @@ def find_shells(vertices: FloatArray, faces: IntArray) -> Shells:
     faces that are wound against their neighbours are turned. What is not closed by itself is put together
     again by shared vertices, since solids that share a wall are closed only together.
     """
+    if not len(faces):
+        return Shells(vertices, faces, np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.bool_))
     points, corners = _welded(vertices, faces)
     edge, way = edges(corners), np.where(corners < corners[:, [1, 2, 0]], 1, -1)
     sheet, flip = _sheets(edge, way)

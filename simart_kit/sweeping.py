@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from .arrays import FloatArray, IntArray
+from .arrays import BoolArray, FloatArray, IntArray
 from .rays import Rays
-from .topology import touching, weld
+from .shells import find_shells
 from .triangles import areas, unit_normals
 
 Motion = Callable[[float], FloatArray]
@@ -68,12 +68,22 @@ class Sweep:
 
 
 class _Surface:
-    """Triangles to run into, and the connected piece of each."""
+    """Triangles to run into: connected pieces, of which those that are closed have an inside."""
 
     def __init__(self, triangles: FloatArray) -> None:
-        self.rays = Rays(triangles)
-        self.normals = unit_normals(triangles)
-        self._piece = _pieces(triangles)
+        shells = find_shells(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
+        self.rays = Rays(shells.triangles)
+        self.normals = unit_normals(shells.triangles)
+        a, b, c = shells.triangles.transpose(1, 0, 2)
+        volumes = np.bincount(shells.face_shell, np.einsum("fi,fi->f", a, np.cross(b, c)), shells.count)
+        self._piece = shells.face_shell
+        # Wound inward, it may be the inside of a wall: then both ways count.
+        self._solid = (shells.closed & (volumes > 0))[shells.face_shell]
+
+    def entered(self, faces: IntArray, ways: FloatArray) -> BoolArray:
+        """Whether (N, 3) ways through faces do not just lead out of a solid."""
+        outward = np.einsum("ni,ni->n", self.normals[faces], ways) > 0
+        return np.asarray(~(outward & self._solid[faces]))
 
     def outside(self, points: FloatArray) -> FloatArray:
         """The points that are not enclosed by one connected piece on all six sides."""
@@ -110,6 +120,7 @@ class _Paths:
         self._lead = -1.0
         faces, distance = self._target.rays.first(start, self._now - start)
         new = (distance <= 1.0) & ~self._crossed
+        new[new] = self._target.entered(faces[new], way[new])
         self._hit[new] = (start + (self._now - start) * np.where(new, distance, 0.0)[:, None])[new]
         self._normal[new] = self._target.normals[faces[new]]
         self._crossed |= new
@@ -136,12 +147,3 @@ def sample_surface(triangles: FloatArray, count: int, rng: np.random.Generator) 
 def move(matrix: FloatArray, points: FloatArray) -> FloatArray:
     """(N, 3) points moved by a (4, 4) transform."""
     return np.asarray(points @ matrix[:3, :3].T + matrix[:3, 3])
-
-
-def _pieces(triangles: FloatArray) -> IntArray:
-    """(F,) connected piece of each triangle."""
-    if not len(triangles):
-        return np.zeros(0, dtype=np.int64)
-    corners = triangles.reshape(-1, 3)
-    tolerance = float(np.ptp(corners, axis=0).max()) * 1e-5
-    return touching(weld(corners, tolerance).reshape(-1, 3))

@@ -186,3 +186,22 @@ class TestSampling:
         matrix = about((0, 0, 1))(np.pi / 2)
         matrix[:3, 3] = (1, 2, 3)
         np.testing.assert_allclose(move(matrix, np.array([[1.0, 0, 0]])), [[1, 3, 3]], atol=1e-15)
+
+
+def test_a_drawer_sunk_into_the_board_below_comes_out_of_it() -> None:
+    """Its bottom lies in the board, whose own ends lie in the walls, as sloppy models have it."""
+    drawer = boxes_mesh([((-0.2, -0.3, 0.09), (0.2, 0.3, 0.3))]).triangles
+    board = ((-0.3, -0.29, 0.0), (0.3, 0.3, 0.1))
+    walls = [((-0.3, -0.29, -0.1), (-0.21, 0.3, 0.4)), ((0.21, -0.29, -0.1), (0.3, 0.3, 0.4))]
+    stop = ((-0.2, -0.55, 0.0), (0.2, -0.5, 0.4))
+    inside = Sweep(drawer, boxes_mesh([board, *walls]).triangles)
+    assert inside.free(sliding, 0.4) == 0.4
+    stopped = Sweep(drawer, boxes_mesh([board, *walls, stop]).triangles)
+    assert 0.18 <= stopped.free(sliding, 0.4, steps=40) <= 0.21
+
+
+def sliding(travel: float) -> FloatArray:
+    """Out of the case, along -y."""
+    matrix = np.eye(4)
+    matrix[1, 3] = -travel
+    return matrix
