@@ -6,7 +6,7 @@ import math
 import shlex
 import shutil
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -39,12 +39,23 @@ def text(result: Result, verbose: bool = False) -> str:
     if verbose:
         lines += [f"  {n.stage}: {n.text}" for n in report.notes if n.level == "info"]
     lines += [f"  warning: {warning}" for warning in report.warnings]
-    lines += [f"  {name}: {t}" for name, texts in report.unsupported.items() for t in texts]
+    lines += [f"  {row}" for row in _lost(report.unsupported, verbose)]
     lines.append(f"files in {result.folder}:")
     lines += [f"  {_WORDS.get(key, key):<10} {path}" for key, path in result.paths.items()]
     if "recording" in result.paths:
         lines.append(f"look at it: {_program()} inspect {shlex.quote(str(result.folder))}")
     return "\n".join(lines)
+
+
+def _lost(unsupported: Mapping[str, Sequence[str]], verbose: bool) -> list[str]:
+    """What formats could not express: all of it, or where to read it, since most runs say the same."""
+    rows = [f"{name}: {text}" for name, texts in unsupported.items() for text in texts]
+    if verbose or not rows:
+        return rows
+    names = ", ".join(name for name, texts in unsupported.items() if texts)
+    return [
+        f"note: {len(rows)} thing(s) that {names} cannot express are told in report.json, or here with -v"
+    ]
 
 
 def joint_rows(asset: Asset) -> Iterator[str]:
