@@ -12,8 +12,9 @@ from .topology import connected, neighbours, touching, unique_rows, weld
 
 WELD_TOLERANCE = 1e-5  # of the diagonal: far below any gap that is modelled, above single precision's noise
 CREASE_ANGLE = np.deg2rad(25.0)
-# A component is fused when it spans the object and holds nearly all of its surface.
-_FUSED_EXTENT, _FUSED_AREA = 0.95, 0.85
+# A component that spans the object may be several solids welded together. It is fused when one of them still
+# spans the object and holds nearly all of its surface.
+_SPANNING, _FUSED_AREA = 0.95, 0.85
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +65,13 @@ def find_segments(mesh: Mesh, crease: float = CREASE_ANGLE, node_hint: bool = Fa
     if node_hint and mesh.face_node is not None:
         keys = corners + int(vertex.max() + 1) * mesh.face_node[:, None]
     found = touching(keys[kept])
-    fused = _fused_component(mesh, found, kept)
+    spanning = _spanning_component(mesh, found, kept)
+    if spanning is not None:
+        inside = np.flatnonzero(found == spanning)
+        faces = kept[inside]
+        found[inside] = found.max() + 1 + _patches(mesh.face_normals[faces], corners[faces], np.pi)
+        spanning = _spanning_component(mesh, found, kept)
+    fused = spanning if _share(mesh, found, kept, spanning) >= _FUSED_AREA else None
     if fused is not None:
         inside = np.flatnonzero(found == fused)
         faces = kept[inside]
@@ -89,16 +96,21 @@ def _degenerate(mesh: Mesh, corners: IntArray) -> BoolArray:
     return np.asarray((a == b) | (b == c) | (c == a) | tiny)
 
 
-def _fused_component(mesh: Mesh, labels: IntArray, kept: IntArray) -> int | None:
-    """The one of (K,) `labels` of the `kept` faces that is nearly the whole object."""
+def _spanning_component(mesh: Mesh, labels: IntArray, kept: IntArray) -> int | None:
+    """The one of (K,) `labels` of the `kept` faces with most surface, if it spans the object."""
     areas = np.bincount(labels, mesh.face_areas[kept], minlength=1)
     largest = int(areas.argmax())
     corners = mesh.triangles[kept[labels == largest]].reshape(-1, 3)
     if not len(corners):
         return None
     extent, whole = np.ptp(corners, axis=0), mesh.bounds[1] - mesh.bounds[0]
-    spans = bool((extent >= _FUSED_EXTENT * whole).all())
-    return largest if spans and areas[largest] >= _FUSED_AREA * areas.sum() else None
+    return largest if (extent >= _SPANNING * whole).all() else None
+
+
+def _share(mesh: Mesh, labels: IntArray, kept: IntArray, label: int | None) -> float:
+    """Share of the surface that one of the labels holds."""
+    areas = mesh.face_areas[kept]
+    return float(areas[labels == label].sum() / areas.sum()) if label is not None else 0.0
 
 
 def _patches(normals: FloatArray, corners: IntArray, crease: float) -> IntArray:

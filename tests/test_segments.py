@@ -162,17 +162,6 @@ class TestPatches:
             normals = mesh.face_normals[segments.face_segment == patch]
             np.testing.assert_allclose(normals, np.broadcast_to(normals[0], normals.shape), atol=1e-12)
 
-    def test_boxes_welded_at_shared_corners_are_fused(self) -> None:
-        """Six cubes in a row have two ends and five walls between them, each there twice."""
-        row = boxes_mesh([((i, 0, 0), (i + 1.0, 1, 1)) for i in range(6)])
-        segments = find_segments(row)
-        assert segments.patches
-        assert segments.duplicates == 10
-        walls = [
-            i for i in range(segments.count) if np.ptp(corners_of(row, segments.face_segment, i)[:, 0]) == 0
-        ]
-        assert len(walls) == 7
-
     def test_round_surfaces_stay_whole(self) -> None:
         can = trimesh.creation.cylinder(radius=1.0, height=2.0, sections=32)
         segments = find_segments(Mesh(can.vertices, can.faces))
@@ -184,16 +173,6 @@ class TestPatches:
         mesh = Mesh(prism.vertices, prism.faces)
         assert find_segments(mesh, crease=np.deg2rad(31.0)).count == 3
         assert find_segments(mesh, crease=np.deg2rad(29.0)).count == 14
-
-    @pytest.mark.parametrize("seed", range(5))
-    def test_an_edge_with_more_than_two_faces_bounds_them_all(self, seed: int) -> None:
-        """A shelf of two level halves, with a board that stands where they meet."""
-        vertices = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0], [2, 1, 0], [1, 0, 1], [1, 1, 1]]
-        faces = np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [1, 4, 7], [1, 7, 6]])
-        order = np.random.default_rng(seed).permutation(6)
-        segments = find_segments(Mesh(np.array(vertices, dtype=float), faces[order]))
-        assert segments.patches
-        assert same_partition(segments.face_segment, np.array([0, 0, 1, 1, 2, 2])[order])
 
     def test_what_is_not_fused_stays_a_component(self) -> None:
         """A small knob beside a large block: the block spans everything, and only it is cut."""
@@ -215,6 +194,41 @@ class TestPatches:
         segments = find_segments(boxes_mesh([((0, 0, 0), (1, 1, 1)), ((1.1, 0, 0), (1.2, 0.1, 0.1))]))
         assert not segments.patches
         assert segments.count == 2
+
+
+class TestWeldedSolids:
+    """A component that spans the object comes apart where more than two faces meet."""
+
+    def test_boxes_that_share_walls_come_apart(self) -> None:
+        """Six cubes in a row: a ring of sides each, the end caps on theirs, and the five walls between."""
+        row = boxes_mesh([((i, 0, 0), (i + 1.0, 1, 1)) for i in range(6)])
+        segments = find_segments(row)
+        assert not segments.patches
+        assert segments.duplicates == 10
+        assert segments.count == 11
+        lengths = [np.ptp(corners_of(row, segments.face_segment, i)[:, 0]) for i in range(11)]
+        assert sorted(lengths) == [0.0] * 5 + [1.0] * 6
+
+    def test_boxes_that_share_an_edge_come_apart(self) -> None:
+        stairs = boxes_mesh([((i, 0, i), (i + 1.0, 1, i + 1.0)) for i in range(3)])
+        segments = find_segments(stairs)
+        assert not segments.patches
+        assert same_partition(segments.face_segment, np.repeat([0, 1, 2], 12))
+
+    @pytest.mark.parametrize("seed", range(5))
+    def test_an_edge_with_more_than_two_faces_bounds_them_all(self, seed: int) -> None:
+        """A shelf of two level halves, with a board that stands where they meet."""
+        vertices = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0], [2, 1, 0], [1, 0, 1], [1, 1, 1]]
+        faces = np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [1, 4, 7], [1, 7, 6]])
+        order = np.random.default_rng(seed).permutation(6)
+        segments = find_segments(Mesh(np.array(vertices, dtype=float), faces[order]))
+        assert not segments.patches
+        assert same_partition(segments.face_segment, np.array([0, 0, 1, 1, 2, 2])[order])
+
+    def test_what_does_not_span_stays_whole(self) -> None:
+        pair = [((0, 0, 0), (1, 1, 1)), ((1, 0, 1), (2, 1, 2))]
+        segments = find_segments(boxes_mesh([*pair, ((5, 0, 0), (9, 4, 4))]))
+        assert same_partition(segments.face_segment, np.repeat([0, 0, 1], 12))
 
 
 class TestNodes:
