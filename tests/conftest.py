@@ -1,9 +1,10 @@
-"""What several test files share: real objects, converted once."""
+"""What several test files share."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from pathlib import Path
 
 import pytest
 
@@ -26,3 +27,16 @@ def converted(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], sk.Re
             return sk.convert(source(name), out=home / name, record=example)
 
     return convert
+
+
+@pytest.fixture
+def write(tmp_path: Path) -> Callable[[str, str], Path]:
+    """Write a text file below the test's folder; returns its path."""
+
+    def write(name: str, text: str) -> Path:
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return path
+
+    return write

@@ -15,18 +15,8 @@ import numpy as np
 import pinocchio
 import pybullet
 import yourdfpy
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Inertial:
-    """Mass [kg], centre (3,) [m] and inertia (3, 3) about it [kg*m^2], in the link's frame."""
-
-    mass: float
-    center: Array
-    inertia: Array
+from .readings import Array, Inertial
 
 
 @dataclass(frozen=True)

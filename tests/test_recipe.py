@@ -132,17 +132,6 @@ def plugins() -> Plugins:
     return plugins
 
 
-@pytest.fixture
-def write(tmp_path):
-    def write(name: str, text: str) -> Path:
-        path = tmp_path / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-        return path
-
-    return write
-
-
 def test_every_packaged_recipe_validates():
     plugins = Plugins(installed=False)
 

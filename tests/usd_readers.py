@@ -7,20 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom, UsdPhysics
 
-Array = NDArray[np.float64]
+from .readings import Array, Inertial
+
 _AXES = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
-
-
-@dataclass(frozen=True)
-class Inertial:
-    """Mass [kg], centre (3,) [m] and inertia (3, 3) about it [kg*m^2], at rest in the stage's frame."""
-
-    mass: float
-    center: Array
-    inertia: Array
 
 
 @dataclass(frozen=True)
