@@ -202,6 +202,11 @@ class Mesh:
         )
 
 
+def z_up_from(up: UpAxis) -> FloatArray:
+    """(3, 3) rotation that brings a frame with this up axis to +Z up; glTF's front (+Z) becomes -Y."""
+    return np.array(_TO_Z_UP[up], dtype=np.float64)
+
+
 def canonical(
     mesh: Mesh, up: UpAxis | None = None, metres_per_unit: float | None = None
 ) -> tuple[Mesh, FloatArray]:
@@ -215,7 +220,7 @@ def canonical(
     Returns:
         The mesh, and `asset_from_source` (4, 4), which maps the file's coordinates to the asset's [m].
     """
-    rotation = np.array(_TO_Z_UP[up or mesh.up], dtype=np.float64)
+    rotation = z_up_from(up or mesh.up)
     factor = metres_per_unit or mesh.metres_per_unit or 1.0
     asset_from_source = np.eye(4)
     asset_from_source[:3, :3] = rotation * factor

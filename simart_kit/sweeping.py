@@ -131,9 +131,14 @@ class _Paths:
 
 def sample_surface(triangles: FloatArray, count: int, rng: np.random.Generator) -> FloatArray:
     """(N, 3) points spread over triangles by area, N = count, or 0 where there is no surface."""
+    return sample_faces(triangles, count, rng)[1]
+
+
+def sample_faces(triangles: FloatArray, count: int, rng: np.random.Generator) -> tuple[IntArray, FloatArray]:
+    """(N,) triangles chosen by area and (N, 3) a point on each, N = count, or 0 where there is no surface."""
     area = areas(triangles)
     if not area.sum() > 0:
-        return np.zeros((0, 3))
+        return np.zeros(0, dtype=np.int64), np.zeros((0, 3))
     # Evenly spaced in cumulated area: no large face is missed by chance.
     places = (np.arange(count) + rng.random(count)) / count
     chosen = np.searchsorted(np.cumsum(area) / area.sum(), places).clip(max=len(triangles) - 1)
@@ -141,7 +146,7 @@ def sample_surface(triangles: FloatArray, count: int, rng: np.random.Generator) 
     u, v = rng.random((2, count, 1))
     folded = u + v > 1
     u, v = np.where(folded, 1 - u, u), np.where(folded, 1 - v, v)
-    return np.asarray(start + u * edges[:, 0] + v * edges[:, 1])
+    return chosen, np.asarray(start + u * edges[:, 0] + v * edges[:, 1])
 
 
 def move(matrix: FloatArray, points: FloatArray) -> FloatArray:

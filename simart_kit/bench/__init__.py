@@ -1,0 +1,1 @@
+"""Scoring articulated objects against the truth: metrics, protocols, readers, runs and reports."""
