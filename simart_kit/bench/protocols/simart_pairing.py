@@ -1,0 +1,224 @@
+"""Moving parts of truth and prediction side by side: matched, missed and invented, with their numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ...arrays import FloatArray
+from ..articulation import Articulation, Link, LinkJoint
+from ..frame import unit_from_object
+from ..metrics import joints
+from ..metrics.parts import hierarchy, iou_matrix, match, symmetric_mean
+from ..metrics.shape import box_giou, chamfer, moved
+from ..metrics.voxel_shape import part_grids, voxel_iou
+from ..overlay import Overlay, overlay
+from ..sampling import Cloud
+from ..states import states
+from .simart_metrics import PartMetric
+
+_THICK = 0.005  # of the object's size
+
+
+@dataclass(frozen=True, eq=False)
+class Pairing:
+    """Two objects in the frame in which the true one's longest side is 1, and which parts are the same.
+
+    Attributes:
+        truth: rigid bodies; where a part has several right joints, the one that the prediction is nearest to.
+        prediction: rigid bodies.
+        overlay: samples of both surfaces.
+        true_parts: links of the truth that move and have a surface.
+        predicted_parts: the same of the prediction.
+        link_iou: overlap of every true and every predicted link.
+        pairs: indices into `true_parts` and `predicted_parts` that belong together.
+    """
+
+    truth: Articulation
+    prediction: Articulation
+    overlay: Overlay
+    true_parts: tuple[int, ...]
+    predicted_parts: tuple[int, ...]
+    link_iou: FloatArray
+    pairs: tuple[tuple[int, int], ...]
+
+    @classmethod
+    def of(cls, truth: Articulation, prediction: Articulation) -> Pairing:
+        """Bring both to the common frame and match their moving parts."""
+        frame = unit_from_object(truth.bounds)
+        truth, prediction = truth.rigid().transformed(frame), prediction.rigid().transformed(frame)
+        laid = overlay(truth, prediction)
+        true_parts, predicted_parts = _moving_surfaces(truth), _moving_surfaces(prediction)
+        shape = (len(truth.links), len(prediction.links))
+        iou = iou_matrix(laid.true_labels, laid.predicted_labels, laid.weights, shape)
+        pairs = match(iou[np.ix_(true_parts, predicted_parts)])
+        links = list(truth.links)
+        for a, b in pairs:
+            index = true_parts[a]
+            links[index] = _nearest_joint(links[index], prediction.links[predicted_parts[b]].joint)
+        truth = replace(truth, links=tuple(links))
+        return cls(truth, prediction, laid, true_parts, predicted_parts, iou, pairs)
+
+    @property
+    def iou(self) -> FloatArray:
+        """(T, P) overlap of the moving parts."""
+        return self.link_iou[np.ix_(self.true_parts, self.predicted_parts)]
+
+    @property
+    def body_iou(self) -> float | None:
+        """Overlap of what does not move; None when truth has no such thing."""
+        bodies = [
+            [i for i, link in enumerate(side.links) if not link.joint.moves]
+            for side in (self.truth, self.prediction)
+        ]
+        if not bodies[0]:
+            return None
+        return float(self.link_iou[bodies[0][0], bodies[1][0]]) if bodies[1] else 0.0
+
+    @property
+    def missed(self) -> tuple[int, ...]:
+        """Indices into `true_parts` of those without partner."""
+        return tuple(sorted(set(range(len(self.true_parts))) - {a for a, _ in self.pairs}))
+
+    @property
+    def invented(self) -> tuple[int, ...]:
+        """Indices into `predicted_parts` of those without partner."""
+        return tuple(sorted(set(range(len(self.predicted_parts))) - {b for _, b in self.pairs}))
+
+    @cached_property
+    def rows(self) -> tuple[dict[str, Any], ...]:
+        """A row a part: matched pairs, then missed true parts, then invented ones."""
+        matched = [self._pair_row(a, b, same) for (a, b), same in zip(self.pairs, self._parents, strict=True)]
+        missed = [{"outcome": "missed", **_told("true", self._true(a))} for a in self.missed]
+        invented = [{"outcome": "invented", **_told("predicted", self._predicted(b))} for b in self.invented]
+        return (*matched, *missed, *invented)
+
+    def penalised(self, metric: PartMetric) -> float | None:
+        """Mean in which missed and invented parts count with the worst; see `symmetric_mean`."""
+        worst = metric.worst * (self.truth.diagonal if metric.is_length else 1.0)
+
+        def entry(joint: LinkJoint, value: float | None = None) -> float | None:
+            if value is not None:
+                return value
+            return worst if metric.defined(joint) else None
+
+        # Rows begin with those of the pairs.
+        matched = [
+            entry(self._true(a).joint, row[metric.key])
+            for (a, _), row in zip(self.pairs, self.rows, strict=False)
+        ]
+        missed = [entry(self._true(a).joint) for a in self.missed]
+        invented = [entry(self._predicted(b).joint) for b in self.invented]
+        return symmetric_mean(matched + missed, matched + invented, worst)
+
+    def matched(self, key: str) -> float | None:
+        """Mean over the matched pairs for which a number is defined; None without any."""
+        values = [row[key] for row in self.rows if row.get(key) is not None]
+        return float(np.mean(values)) if values else None
+
+    def _true(self, a: int) -> Link:
+        return self.truth.links[self.true_parts[a]]
+
+    def _predicted(self, b: int) -> Link:
+        return self.prediction.links[self.predicted_parts[b]]
+
+    def _pair_row(self, a: int, b: int, same_parent: float) -> dict[str, Any]:
+        true, predicted = self._true(a), self._predicted(b)
+        i, j = self.true_parts[a], self.predicted_parts[b]
+        one, two = self.overlay.truth.of(i), self.overlay.prediction.of(j)
+        return {
+            "outcome": "matched",
+            **_told("true", true),
+            **_told("predicted", predicted),
+            **_joint_numbers(true.joint, predicted.joint),
+            "iou": float(self.link_iou[i, j]),
+            "iou_voxel": voxel_iou(self._grids[0][i], self._grids[1][j]),
+            "cd": chamfer(one, two),
+            **_moved_numbers(one, two, [(t[i], p[j]) for t, p in self._states]),
+            "hierarchy": same_parent,
+        }
+
+    @cached_property
+    def _grids(self) -> tuple[Any, Any]:
+        return part_grids(self.truth), part_grids(self.prediction)
+
+    @cached_property
+    def _states(self) -> list[tuple[FloatArray, FloatArray]]:
+        return list(zip(states(self.truth), states(self.prediction), strict=True))
+
+    @cached_property
+    def _parents(self) -> list[float]:
+        true = _moving_parents(self.truth, self.true_parts)
+        predicted = _moving_parents(self.prediction, self.predicted_parts)
+        return hierarchy(true, predicted, self.pairs)
+
+
+def _joint_numbers(true: LinkJoint, predicted: LinkJoint) -> dict[str, float | None]:
+    error = joints.range_error(true, predicted)
+    return {
+        "type": joints.same_type(true, predicted),
+        "type_coarse": joints.same_coarse_type(true, predicted),
+        "axis": joints.axis_error(true, predicted),
+        "direction": joints.direction_error(true, predicted),
+        "origin": joints.origin_error(true, predicted),
+        "origin_line": joints.line_error(true, predicted),
+        "limits_iou": joints.limits_iou(true, predicted),
+        "range_turn": error if true.turns else None,
+        "range_slide": None if true.turns else error,
+    }
+
+
+def _moved_numbers(
+    one: Cloud, two: Cloud, poses: Sequence[tuple[FloatArray, FloatArray]]
+) -> dict[str, float]:
+    distances, overlaps = [], []
+    for posed_T_true, posed_T_predicted in poses:
+        a, b = moved(one, posed_T_true), moved(two, posed_T_predicted)
+        distances.append(chamfer(a, b))
+        overlaps.append(box_giou(_bounds(a.points), _bounds(b.points)))
+    return {"articulated_cd": float(np.mean(distances)), "articulated_giou": float(np.mean(overlaps))}
+
+
+def _bounds(points: FloatArray) -> FloatArray:
+    """Their box, grown a little, so that that of a flat part has a volume."""
+    return np.stack([points.min(axis=0) - _THICK, points.max(axis=0) + _THICK])
+
+
+def _moving_surfaces(articulation: Articulation) -> tuple[int, ...]:
+    """Links that move and have a surface; others, as abstract links of a chain are, cannot be seen."""
+    size = np.bincount(articulation.labels + 1, articulation.weights, len(articulation.links) + 1)[1:]
+    return tuple(i for i in articulation.moving if size[i] > 0)
+
+
+def _moving_parents(articulation: Articulation, parts: Sequence[int]) -> list[int]:
+    """For each of `parts`, the index in `parts` of the next one that carries it; -1 for the body."""
+    place = {link: index for index, link in enumerate(parts)}
+    parents = []
+    for link in parts:
+        above = articulation.links[link].parent
+        while above >= 0 and above not in place:
+            above = articulation.links[above].parent
+        parents.append(place.get(above, -1))
+    return parents
+
+
+def _nearest_joint(link: Link, predicted: LinkJoint) -> Link:
+    """The link with the one of its joints that the prediction comes nearest to."""
+
+    def distance(joint: LinkJoint) -> tuple[float, float, float]:
+        axis, line = joints.axis_error(joint, predicted), joints.line_error(joint, predicted)
+        return (
+            -joints.same_type(joint, predicted),
+            np.pi if axis is None else axis,
+            np.inf if line is None else line,
+        )
+
+    return replace(link, joint=min((link.joint, *link.also), key=distance))
+
+
+def _told(side: str, link: Link) -> dict[str, str]:
+    return {side: link.name, f"{side}_kind": link.joint.kind}
