@@ -30,7 +30,7 @@ def staging(out: Path) -> Iterator[Path]:
         try:
             created = [p for p in (out, *out.parents) if not p.exists()]
             out.mkdir(parents=True, exist_ok=True)
-            held.enter_context(_claimed(out))
+            held.enter_context(claimed(out))
             for stale in out.glob(f"{_STAGING}*"):
                 shutil.rmtree(stale)  # of a run that was killed
             folder = Path(tempfile.mkdtemp(prefix=_STAGING, dir=out))
@@ -117,7 +117,7 @@ def left_over(folder: Path, out: Path) -> dict[str, str]:
 
 
 @contextmanager
-def _claimed(out: Path) -> Iterator[None]:
+def claimed(out: Path) -> Iterator[None]:
     """Keep other runs out of a folder, by a lock that the system drops however this process ends.
 
     Raises:

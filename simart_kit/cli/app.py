@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from . import plugins, recipes
+from . import bench, plugins, recipes
 from .check import check
 from .common import help_when_alone
 from .convert import convert
@@ -29,6 +29,7 @@ app = typer.Typer(
 )
 for command in (convert, export, check, inspect, version):
     app.command(epilog=EPILOG)(command)
+app.add_typer(bench.app, name="bench")
 app.add_typer(recipes.app, name="recipes")
 app.add_typer(plugins.app, name="plugins")
 

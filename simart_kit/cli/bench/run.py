@@ -1,0 +1,63 @@
+"""`simart-kit bench run`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..common import load_plugins, stdout_kept
+from ..options import Json, PluginFiles, Sets, Verbose
+from .options import OUT, Data, Jobs, NoPictures, Only, Out, ProtocolName, Quiet, Retry, Timeout, Variant
+
+RecipeName = Annotated[
+    str, typer.Option("--recipe", "-r", metavar="NAME|FILE", help="Recipe; see `recipes list`.")
+]
+
+
+def run(
+    data: Data,
+    recipe: RecipeName = "default",
+    variant: Variant = "input",
+    protocol: ProtocolName = "simart",
+    out: Out = OUT,
+    sets: Sets = None,
+    plugin: PluginFiles = None,
+    only: Only = None,
+    jobs: Jobs = 1,
+    timeout: Timeout = 600.0,
+    no_pictures: NoPictures = False,
+    retry: Retry = False,
+    json: Json = False,
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
+    """Convert objects with a recipe and score what comes out.
+
+    Every object has a process of its own: one that crashes or hangs is a row that says so. A run that was
+    stopped goes on where it was when the same command is given again. Exports are MJCF alone, for the
+    simulator. The exit code is 1 if no object could be scored.
+    """
+    with stdout_kept(json):
+        from ...bench.run import Plan
+        from ...bench.worker import Conversions
+        from ...recipe import load_recipe
+        from .perform import perform, tell
+
+        resolved = load_recipe(recipe, load_plugins(plugin), [*(sets or ()), 'export=[{use="mjcf"}]'])
+        files = tuple(file.resolve() for file in plugin or ())
+        plan = Plan(
+            data=data,
+            out=out,
+            system=Conversions(f"recipe {Path(recipe).stem}", resolved, files),
+            protocol=protocol,
+            variant=variant,
+            only=tuple(only or ()),
+            jobs=jobs,
+            timeout=timeout,
+            pictures=not no_pictures,
+            retry=retry,
+        )
+        outcome = perform(plan, quiet)
+    tell(plan, outcome, json, quiet)

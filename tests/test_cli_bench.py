@@ -1,0 +1,194 @@
+"""`simart-kit bench`: what it prints, on which stream, and with which exit code."""
+
+import json
+import re
+import resource
+import signal
+import subprocess
+import sys
+import time
+from io import StringIO
+from pathlib import Path
+
+import pytest
+
+from simart_kit.bench.rows import Row
+from simart_kit.cli.bench.progress import Bar
+from simart_kit.cli.main import run
+
+from .bench_runs import converted, write_home
+
+RUN = ["bench", "run", "data", "--recipe", "recipe.toml", "--plugin", "cabinets.py", "--no-pictures"]
+
+
+@pytest.fixture
+def home(tmp_path, monkeypatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    write_home(tmp_path, ["cabinet", "block", "raise"])
+    return tmp_path
+
+
+def test_a_run_ends_with_failures_a_table_and_where_the_files_are(home, capfd):
+    assert run(RUN) == 0
+
+    out, err = capfd.readouterr()
+    lines = out.splitlines()
+    assert lines[0].startswith("raise: failed: ")
+    assert re.fullmatch(
+        r"simart/\S+, recipe recipe on data: 3 object\(s\), 1 failed, 1 static, 3 true .*", lines[1]
+    )
+    assert re.fullmatch(r" +better +mean \[95 %\] +n +matched only +n", lines[2])
+    # The cabinet and the block are right, and the failure counts with 0: a mean of 2/3.
+    assert re.search(r"^  Type +higher +0\.667 \[0\.000, 1\.000\] +3 +1\.000 +1$", out, re.MULTILINE)
+    assert re.search(r"^  F1 +higher +0\.667 \[\d\.\d+, \d\.\d+\] +3$", out, re.MULTILINE)
+    # Of categories: one right cabinet and the failure, and the block.
+    assert re.search(r"^  +objects +failed +Type ", out, re.MULTILINE)
+    assert re.search(r"^  cabinet +2 +1 +0\.500 ", out, re.MULTILINE)
+    assert re.search(r"^  block +1 +0 +1\.000 ", out, re.MULTILINE)
+    for word, name in (("results", "results.json"), ("table", "results.csv"), ("page", "report.html")):
+        assert re.search(rf"^  {word} +out/bench/{name}$", out, re.MULTILINE)
+        assert (home / "out" / "bench" / name).is_file()
+    assert err.splitlines()[0] == "3 object(s)"
+    assert [line.split()[:2] for line in err.splitlines()[1:]] == [
+        ["[1/3]", "block"],
+        ["[2/3]", "cabinet"],
+        ["[3/3]", "raise"],
+    ]
+
+
+def test_json_is_one_document_on_stdout(home, capfd):
+    assert run([*RUN, "--json", "--out", "here", "--only", "cab*", "-j", "2"]) == 0
+
+    document = json.loads(capfd.readouterr().out)
+    assert (document["ok"], document["folder"], document["failed"]) == (True, "here", {})
+    assert document["summary"]["all"]["means"]["iou"]["n"] == 1
+    assert document["summary"] == json.loads(Path("here/results.json").read_text())["summary"]
+
+
+def test_a_run_without_a_score_is_a_failure(home, capfd):
+    assert run([*RUN, "-q", "--only", "raise"]) == 1
+
+    assert capfd.readouterr() == ("", "error: no object could be scored\n")
+
+
+def test_predictions_are_scored_compared_and_shown_again(home, capfd):
+    assert run([*RUN, "-q", "--out", "a"]) == 0
+    predictions = home / "predictions"
+    predictions.mkdir()
+    (home / "a" / "objects" / "cabinet" / "output").rename(predictions / "cabinet")
+    Path("a/report.html").unlink()
+
+    assert run(["bench", "score", "data", "predictions", "--out", "b", "--no-pictures", "-q"]) == 0
+    assert run(["bench", "compare", "a", "b"]) == 0
+    assert run(["bench", "compare", "a", "b", "--json"]) == 0
+    assert run(["bench", "report", "a"]) == 0
+
+    text, brace, rest = capfd.readouterr().out.partition("\n{")
+    assert "A  a: recipe recipe, 1 failed" in text
+    assert "B  b: predictions predictions, 2 failed" in text
+    # The block fell from 1 to 0; the cabinet and the failure are as before.
+    assert re.search(r"^  F1 +3 +0\.667 +0\.333 +-0\.333 .* 0/2/1 ", text, re.MULTILINE)
+    document, end = json.JSONDecoder().raw_decode(brace.strip() + rest)
+    assert document["objects"] == ["block", "cabinet", "raise"]
+    assert (brace.strip() + rest)[end:].split() == ["a/report.html"]
+    assert Path("a/report.html").is_file()
+
+
+def test_objects_are_imported(home, capfd):
+    (home / "data" / "raise" / "gt.json").write_text("{}")
+
+    assert run(["bench", "import", "data", "imported"]) == 0
+
+    out, err = capfd.readouterr()
+    assert out == "2 object(s) written to imported, 1 skipped\n"
+    assert [line.split(":")[0] for line in err.splitlines()] == ["block", "cabinet", "raise"]
+    assert Path("imported/cabinet/gt.json").is_file()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["run", "nowhere"], "no such folder: nowhere"),
+        (["run", "predictions"], "holds no object with ground truth"),
+        (["run", "data", "--recipe", "nobody"], "unknown recipe 'nobody'"),
+        (["run", "data", "--protocol", "paper"], "unknown protocol 'paper': known are simart"),
+        (["run", "data", "--plugin", "missing.py"], "no plugin file missing.py"),
+        (["run", "data", "--jobs", "0"], "--jobs"),
+        (["run", "data", "--timeout", "soon"], "--timeout"),
+        (["run", "data", "--only", "fridge"], "no object is called fridge"),
+        (["run", "data", "--out", "data"], "data is not empty and no benchmark run"),
+        (["run", "data", "--out", "recipe.toml"], "it is a file"),
+        (["score", "data", "nowhere"], "no such folder: nowhere"),
+        (["score", "data", "predictions", "--up", "north"], "--up"),
+        (["compare", "data", "data"], "is no folder of a benchmark run"),
+        (["report", "data"], "is no folder of a benchmark run"),
+        (["import", "nowhere", "out"], "no such folder: nowhere"),
+        (["frobnicate"], "frobnicate"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else None,
+)
+def test_a_mistake_is_one_line_and_exit_code_2(home, capfd, arguments, told):
+    (home / "predictions").mkdir()
+
+    assert run(["bench", *arguments]) == 2
+
+    (line,) = capfd.readouterr().err.splitlines()
+    assert line.startswith("error: ")
+    assert told in line
+    assert not (home / "out").exists()
+
+
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM], ids=["ctrl-c", "kill"])
+def test_an_interrupted_run_keeps_what_is_done_and_tells_how_to_go_on(home, capfd, sent):
+    write_home(home, ["slow_1", "slow_2"])
+    command = [*RUN, "--only", "cab*", "--only", "slow*"]
+    running = subprocess.Popen(
+        [sys.executable, "-m", "simart_kit", *command],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    while converted(home) != ["cabinet", "slow_1"]:
+        assert running.poll() is None
+        time.sleep(0.02)
+
+    running.send_signal(sent)
+    out, err = running.communicate(timeout=20)
+
+    assert (running.returncode, out) == (130, "")
+    assert err.splitlines()[-2:] == [
+        "2 object(s) left to do: run the same command again to go on",
+        "interrupted",
+    ]
+    assert run([*command, "-q"]) == 0
+    assert converted(home) == ["cabinet", "slow_1", "slow_1", "slow_2"]
+
+
+def test_a_bar_tells_failures_above_it_and_the_mean_time():
+    from rich.console import Console
+    from rich.progress import Progress, TextColumn
+
+    screen = StringIO()
+    console = Console(file=screen, force_terminal=True, width=80)
+    with Progress(TextColumn("{task.description}"), console=console, auto_refresh=False) as shown:
+        bar = Bar(shown)
+        bar.started(5, 2)
+        bar.finished(Row("one", seconds=1.0))
+        bar.finished(Row("two", status="failed", error="crashed (signal 11)", seconds=2.0))
+        (task,) = shown.tasks
+        assert (task.completed, task.total, task.description) == (4, 5, "1.5 s an object")
+    assert "5 object(s), 2 done before" in screen.getvalue()
+    assert re.search(r"two +failed: crashed \(signal 11\)", screen.getvalue())
+
+
+def test_help_loads_nothing_of_the_bench():
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    code = (
+        "import sys; from simart_kit.cli.main import run; run(['bench', 'run', '--help']);"
+        "print([name for name in sys.modules if name.startswith(('simart_kit.bench', 'numpy', 'rich'))])"
+    )
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    assert out.splitlines()[-1] == "[]"
+    assert after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime < 1.0
