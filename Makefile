@@ -14,7 +14,7 @@ SCHEMA := $(BIN)/python -c 'from simart_kit import asset_schema, describe; \
 	print(describe.schema_text(asset_schema.AssetTable), end="")'
 WHEEL := build/wheel
 
-.PHONY: help demo test check lint types docs docs-check fmt wheel bench clean
+.PHONY: help demo test check lint types docs docs-check fmt wheel bench browser clean
 .DEFAULT_GOAL := help
 
 help:  ## List the targets.
@@ -59,6 +59,14 @@ wheel: $(DEV)  ## Build a wheel from the sdist and run the tests against it in a
 
 bench: $(APP)  ## Time a conversion of 2 thousand and of 200 thousand faces, a line a stage.
 	$(BIN)/python tests/bench.py
+
+browser:  ## Install chromium by apt for the tests of pages, where no browser is found.
+	@for name in chromium chromium-browser google-chrome google-chrome-stable; do \
+		if command -v $$name > /dev/null; then echo "browser found: $$name"; exit 0; fi; \
+	done; \
+	echo "no browser found: installing Debian's chromium with apt-get, about 400 MB"; \
+	as_root=$$([ "$$(id -u)" = 0 ] || echo sudo); \
+	$$as_root apt-get update --quiet && $$as_root apt-get install --quiet --yes --no-install-recommends chromium
 
 clean:  ## Remove what was built, but not the environment.
 	rm -rf build dist out .coverage .mypy_cache .ruff_cache .pytest_cache
