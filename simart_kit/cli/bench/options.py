@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Annotated
 
@@ -24,10 +25,18 @@ Only = Annotated[
     list[str] | None,
     typer.Option(metavar="PATTERN", help="Only objects named so, such as 'fridge*'; may be repeated."),
 ]
-Jobs = Annotated[int, typer.Option("--jobs", "-j", min=1, metavar="N", help="Objects at a time.")]
+Jobs = Annotated[
+    int | None,
+    typer.Option("--jobs", "-j", min=1, metavar="N", help="Objects at a time; default: one a processor."),
+]
 Timeout = Annotated[
     float, typer.Option(min=0, metavar="SECONDS", help="Longest time of an object; 0: no limit.")
 ]
 NoPictures = Annotated[bool, typer.Option("--no-pictures", help="Draw no pictures for the page.")]
 Retry = Annotated[bool, typer.Option("--retry", help="Do objects again that failed.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but errors.")]
+
+
+def processors() -> int:
+    """How many of them this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

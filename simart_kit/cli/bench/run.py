@@ -9,7 +9,20 @@ import typer
 
 from ..common import load_plugins, stdout_kept
 from ..options import Json, PluginFiles, Sets, Verbose
-from .options import OUT, Data, Jobs, NoPictures, Only, Out, ProtocolName, Quiet, Retry, Timeout, Variant
+from .options import (
+    OUT,
+    Data,
+    Jobs,
+    NoPictures,
+    Only,
+    Out,
+    ProtocolName,
+    Quiet,
+    Retry,
+    Timeout,
+    Variant,
+    processors,
+)
 
 RecipeName = Annotated[
     str, typer.Option("--recipe", "-r", metavar="NAME|FILE", help="Recipe; see `recipes list`.")
@@ -25,7 +38,7 @@ def run(
     sets: Sets = None,
     plugin: PluginFiles = None,
     only: Only = None,
-    jobs: Jobs = 1,
+    jobs: Jobs = None,
     timeout: Timeout = 600.0,
     no_pictures: NoPictures = False,
     retry: Retry = False,
@@ -54,7 +67,7 @@ def run(
             protocol=protocol,
             variant=variant,
             only=tuple(only or ()),
-            jobs=jobs,
+            jobs=jobs or processors(),
             timeout=timeout,
             pictures=not no_pictures,
             retry=retry,

@@ -10,7 +10,20 @@ import typer
 from ...errors import BadInputError
 from ..common import stdout_kept
 from ..options import Json, Verbose
-from .options import OUT, Data, Jobs, NoPictures, Only, Out, ProtocolName, Quiet, Retry, Timeout, Variant
+from .options import (
+    OUT,
+    Data,
+    Jobs,
+    NoPictures,
+    Only,
+    Out,
+    ProtocolName,
+    Quiet,
+    Retry,
+    Timeout,
+    Variant,
+    processors,
+)
 
 Up = Annotated[
     Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None,
@@ -33,7 +46,7 @@ def score(
     fit: Fit = "none",
     out: Out = OUT,
     only: Only = None,
-    jobs: Jobs = 1,
+    jobs: Jobs = None,
     timeout: Timeout = 600.0,
     no_pictures: NoPictures = False,
     retry: Retry = False,
@@ -62,7 +75,7 @@ def score(
             protocol=protocol,
             variant=variant,
             only=tuple(only or ()),
-            jobs=jobs,
+            jobs=jobs or processors(),
             timeout=timeout,
             pictures=not no_pictures,
             retry=retry,
