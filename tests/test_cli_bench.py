@@ -18,7 +18,7 @@ from simart_kit.cli.main import run
 
 from .bench_runs import converted, write_home
 
-RUN = ["bench", "run", "data", "--recipe", "recipe.toml", "--plugin", "cabinets.py", "--no-pictures"]
+RUN = ["bench", "run", "data", "--recipe", "recipe.toml", "--plugin", "cabinets.py", "--no-pictures", "-j1"]
 
 
 @pytest.fixture
