@@ -250,6 +250,31 @@ def test_a_floating_base_is_fixed(write: Write) -> None:
     assert [joint.name for joint in found.joints] == ["door"]
 
 
+def test_a_part_may_overlap_its_base_whether_that_floats_or_not(write: Write) -> None:
+    # MuJoCo rules contact with a parent out, but not with one that stands still, as a base does here.
+    wheel = body('<joint name="spin" type="hinge" axis="0 0 1"/>', 'type="box" size="0.3 0.02 0.02"')
+    post = '<geom type="box" pos="0 0.2 0" size="0.05 0.05 0.05"/>'
+    floating = f'<body name="base"><freejoint/>{post}{wheel}</body>'
+    assert execute(write("a.xml", mjcf(floating))).executable
+    assert execute(write("b.xml", mjcf(floating.replace("<freejoint/>", "")))).travels == 0.0
+
+
+@pytest.mark.parametrize(
+    "inside", ['armature="1e4"', 'frictionloss="1e4"', 'stiffness="1e6"', 'damping="1e4"']
+)
+def test_what_resists_inside_a_joint_neither_blocks_nor_breaks_through(write: Write, inside: str) -> None:
+    slide = f'<joint name="j" type="slide" axis="1 0 0" range="0 0.4" {inside}/>'
+    assert execute(write("a.xml", mjcf(body(slide)))).travels == 1.0
+    wall = '<geom type="box" pos="0.3 0 0" size="0.05 0.5 0.5"/>'
+    assert execute(write("b.xml", mjcf(wall + body(slide)))).travels == 0.0
+
+
+def test_a_range_of_next_to_nothing_is_no_travel(write: Write) -> None:
+    found = execute(write("a.xml", mjcf(body('<joint name="j" type="slide" range="0 1e-6"/>'))))
+    assert found.travels == 0.0
+    assert "'j' has no travel" in found.reason
+
+
 @pytest.mark.parametrize(
     ("joint", "reason"),
     [

@@ -114,7 +114,7 @@ def test_python_objects_and_too_many_labels_are_refused(tmp_path: Path) -> None:
     many = Articulation(
         "many", many.vertices, np.tile(many.faces, (1000, 1)), np.zeros(12000, dtype=int), many.links
     )
-    with pytest.raises(BadInputError, match="12000 labels: more than 10000"):
+    with pytest.raises(BadInputError, match="12000 labels: more than 1000"):
         LabelArray().read(save_labels(tmp_path / "b.npy", np.arange(12000)), truth(many))
 
 
@@ -215,10 +215,18 @@ def test_partnet_mobility_is_not_taken_for_it(tmp_path: Path) -> None:
     assert ArticulateAnyMesh().find(tmp_path, "cabinet") is None
 
 
-def test_parts_without_files_and_files_without_parts_are_noted(tmp_path: Path) -> None:
-    path = write_anymesh(tmp_path, anymesh_rows(), ("base", "door@0", "spare", "drawer@0"))
+def test_files_without_parts_and_still_parts_without_files_are_noted(tmp_path: Path) -> None:
+    rows = anymesh_rows()
+    next(row for row in rows if row["name"] == "door@1").update(joint="fixed")
+    path = write_anymesh(tmp_path, rows, ("base", "door@0", "spare", "drawer@0"))
     notes = ArticulateAnyMesh().read(path, CABINET).notes
     assert notes[1:] == ("part 'door@1' has no mesh", "spare.glb is of no part: left out")
+
+
+def test_a_moving_part_without_a_file_is_refused(tmp_path: Path) -> None:
+    path = write_anymesh(tmp_path, anymesh_rows(), ("base", "door@0", "drawer@0"))
+    with pytest.raises(BadInputError, match="part 'door@1' moves and has no mesh"):
+        ArticulateAnyMesh().read(path, CABINET)
 
 
 ANYMESH_FAULTS: dict[str, tuple[Callable[[Any], object], str]] = {

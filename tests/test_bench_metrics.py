@@ -20,7 +20,7 @@ from simart_kit.bench.metrics.joints import (
     same_coarse_type,
     same_type,
 )
-from simart_kit.bench.metrics.parts import detection, hierarchy, iou_matrix, match, symmetric_mean
+from simart_kit.bench.metrics.parts import detection, hierarchy, iou_matrix, match
 
 HINGE = LinkJoint("revolute", (0, 0, 1), (0, 0, 0), 0.0, 1.0)
 
@@ -168,18 +168,3 @@ def test_a_parent_is_right_when_it_is_the_match_of_the_true_parent():
     # True: a tray (1) on a door (0) on the body. Predicted: both on the body, in the other order.
     assert hierarchy([-1, 0], [-1, -1], [(0, 1), (1, 0)]) == [1.0, 0.0]
     assert hierarchy([-1, 0], [1, -1], [(0, 1), (1, 0)]) == [1.0, 1.0]
-
-
-@pytest.mark.parametrize(
-    ("true_side", "predicted_side", "expected"),
-    [
-        ([1.0, 0.0], [1.0], 0.75),
-        ([1.0, None], [1.0, None], 1.0),
-        ([0.0], [], 0.0),
-        ([], [0.0], 0.0),
-        ([], [], None),
-        ([None], [None], None),
-    ],
-)
-def test_missed_and_invented_parts_both_count(true_side, predicted_side, expected):
-    assert symmetric_mean(true_side, predicted_side, worst=0.0) == expected

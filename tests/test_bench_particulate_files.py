@@ -135,7 +135,7 @@ def test_a_full_turn_is_continuous(tmp_path: Path, limits: tuple[float, float], 
     truth = ParticulateTruth().read(write_npz(tmp_path / "cab.npz", **CLOUD, revolute_range=ranges))
     joint = truth.articulation.links[1].joint
     assert joint.kind == kind
-    assert (joint.lower is None) == (kind == "continuous")
+    assert (joint.lower, joint.upper) == limits  # Particulate's states run from one to the other
 
 
 def test_a_part_that_turns_and_slides_is_right_as_either_in_truth_and_revolute_in_a_prediction(

@@ -128,7 +128,7 @@ def test_a_group_that_needs_no_numbers_may_have_none(tmp_path: Path) -> None:
 @pytest.mark.parametrize("point", [[0.1, 0, 0.2], []])
 def test_what_turns_and_slides_is_right_as_either(tmp_path: Path, point: list[float]) -> None:
     link = read_group(tmp_path, [0, 1, 0, 0.1, 0, 0.2, -1, 1, 0, 0, 1, *point, 0, 0.05], "CB")
-    assert link.joint == LinkJoint("revolute", (0, 1, 0), (0.1, 0, 0.2), -math.pi, math.pi, "group 1")
+    assert link.joint == LinkJoint("continuous", (0, 1, 0), (0.1, 0, 0.2), -math.pi, math.pi, "group 1")
     # A slide without a point of its own has that of the turn.
     assert link.also == (LinkJoint("prismatic", (0, 0, 1), (0.1, 0, 0.2), 0, 0.05, "group 1"),)
 

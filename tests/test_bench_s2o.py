@@ -98,19 +98,27 @@ def test_any_of_several_right_joints_may_be_predicted():
     assert levels(hinge((1, 0, 0)), other, slide(), other) == (1, 1, 1, 1)
 
 
-def test_a_class_is_the_last_word_of_the_label_then_of_the_name_then_by_kind():
+def test_a_class_is_the_last_known_word_of_the_label_or_else_of_the_name():
     def kind(name: str, label: str = "", joint: LinkJoint | None = None) -> str | None:
         return openable(Link(name, 0, hinge() if joint is None else joint, label=label))
 
     assert kind("sliding_door", joint=slide()) == "door"  # "sliding" has no lid in it
     assert kind("x", "drawer door") == "door"
     assert kind("door1", "Lid") == "lid"
-    assert kind("leftDoor2", "panel") == "door"
+    assert kind("leftDoor2") == "door"
     assert kind("DOORS") == "door"
-    assert kind("solid") == "door"
     assert kind("part_3", joint=slide()) == "drawer"
+    assert kind("link_3") == "door"
+    assert kind("solid", joint=slide()) == "drawer"  # has no lid in it
+    assert kind("ROOM73B2-BODYSET7") == "door"
     assert kind("part_3", joint=LinkJoint("free")) is None
     assert kind("door", joint=LinkJoint()) is None
+
+
+def test_parts_that_s2o_does_not_know_do_not_count():
+    assert openable(Link("panel_2", 0, hinge(), label="panel")) is None
+    assert openable(Link("button_link", 0, slide())) is None
+    assert openable(Link("door_handle", 0, hinge(), label="handle")) is None
 
 
 def test_another_class_is_no_match():

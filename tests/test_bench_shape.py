@@ -7,11 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.distance import cdist
+from scipy.spatial.transform import Rotation
 
 from simart_kit.bench.articulation import Articulation, Link
 from simart_kit.bench.frame import unit_from_object
 from simart_kit.bench.grounding import score_grounding
-from simart_kit.bench.metrics.shape import box_giou, box_iou, chamfer, chamfer_squared, moved
+from simart_kit.bench.metrics.shape import box_giou, box_iou, chamfer, chamfer_moved, chamfer_squared
 from simart_kit.bench.metrics.voxel_shape import part_grids, voxel_iou
 from simart_kit.bench.overlay import overlay
 from simart_kit.bench.reconstruction import score_reconstruction
@@ -71,7 +72,7 @@ def test_equal_parts_are_at_distance_0_at_rest_and_moved_alike():
     for link in (0, 1):
         true, predicted = laid.truth.of(link), laid.prediction.of(link)
         assert chamfer(true, predicted) == 0.0
-        assert chamfer(moved(true, turn), moved(predicted, turn)) == 0.0
+        assert chamfer_moved(true, predicted, [(turn, turn)]) == pytest.approx([0.0], abs=1e-12)
 
 
 @pytest.mark.parametrize("height", [0.01, 0.5])
@@ -82,12 +83,26 @@ def test_squares_above_each_other_are_as_far_apart_as_they_are(height):
 
 
 def test_a_part_moved_away_is_as_far_as_the_motion_takes_it():
-    laid = overlay(square(0), square(0))
-    lift = np.eye(4)
-    lift[2, 3] = 0.25
-    still, lifted = laid.truth.of(0), moved(laid.prediction.of(0), lift)
-    assert chamfer(still, lifted) == pytest.approx(0.25)
-    np.testing.assert_allclose(lifted.points - still.points, np.tile([0, 0, 0.25], (len(still.points), 1)))
+    part = overlay(square(0), square(0)).truth.of(0)
+    lift, drop = np.eye(4), np.eye(4)
+    lift[2, 3], drop[2, 3] = 0.25, -0.5
+    poses = [(np.eye(4), np.eye(4)), (np.eye(4), lift), (drop, lift)]
+    assert chamfer_moved(part, part, poses) == pytest.approx([0.0, 0.25, 0.75])
+
+
+def test_distances_of_moved_points_agree_with_moving_and_measuring_them():
+    rng = np.random.default_rng(4)
+    one, two = rng.random((40, 3)), rng.random((60, 3))
+    turns = [np.eye(4), np.eye(4)]
+    for turn in turns:
+        turn[:3, :3] = Rotation.random(random_state=rng).as_matrix()
+        turn[:3, 3] = rng.random(3)
+    placed = [points @ turn[:3, :3].T + turn[:3, 3] for points, turn in zip((one, two), turns, strict=True)]
+    apart = np.linalg.norm(placed[0][:, None] - placed[1][None], axis=2)
+    expected = (apart.min(axis=1).mean() + apart.min(axis=0).mean()) / 2
+    assert chamfer_moved(cloud(one), cloud(two), [(turns[0], turns[1])]) == pytest.approx([expected])
+    squared = (apart.min(axis=1) ** 2).mean() + (apart.min(axis=0) ** 2).mean()
+    assert chamfer_squared(one, two, np.linalg.inv(turns[0]) @ turns[1]) == pytest.approx(squared)
 
 
 @pytest.mark.parametrize(

@@ -129,30 +129,31 @@ FAULTS: dict[str, tuple[Articulation, dict[str, float | str | None]]] = {
          "precision": 0, "recall": 0, "f1": 0,
          "type_matched": None, "axis_matched": None, "iou_matched": None, "range_turn_matched": None},
     ),
-    # One part of area 1 on the left hinge: IoU 0.6 with the left door; the right one is missed. True side:
-    # mean of the pair and the worst; predicted side: the pair alone; then the mean of both.
+    # One part of area 1 on the left hinge: IoU 0.6 with the left door; the right one is missed. Two entries,
+    # the pair and the worst.
     "merged doors": (
         wardrobe((BODY, LEFT), (0, 0, 1, 1, 1)),
-        {"type": (0.5 + 1) / 2, "type_coarse": 0.75, "axis": PI / 8, "direction": PI / 4,
-         "origin": ROOT3 / 8, "origin_line": ROOT3 / 8, "limits_iou": 0.75, "iou": (0.3 + 0.6) / 2,
-         "iou_matched": 0.6, **SHAPES, **MOVED, "hierarchy": 0.75, "recall": 0.5, "f1": 2 / 3},
+        {"type": 1 / 2, "type_coarse": 1 / 2, "axis": PI / 4, "direction": PI / 2,
+         "origin": ROOT3 / 4, "origin_line": ROOT3 / 4, "limits_iou": 1 / 2, "iou": (0.6 + 0) / 2,
+         "iou_matched": 0.6, **SHAPES, **MOVED, "hierarchy": 1 / 2, "recall": 0.5, "f1": 2 / 3},
     ),
-    # The left door as two: IoU 0.75 with its upper piece, the lower one is invented. True side
-    # (0.75 + 1) / 2, predicted side (0.75 + 1 + 0) / 3.
+    # The left door as two: IoU 0.75 with its upper piece, the lower one is invented. Three entries, two pairs
+    # and the worst.
     "one part split in two": (
         wardrobe((BODY, LEFT, RIGHT, replace(LEFT, name="lower")), (0, 0, 3, 1, 2)),
-        {"type": (1 + 2 / 3) / 2, "type_coarse": 5 / 6, "axis": PI / 12, "direction": PI / 6,
-         "origin": ROOT3 / 12, "origin_line": ROOT3 / 12, "limits_iou": 5 / 6,
-         "iou": (1.75 / 2 + 1.75 / 3) / 2, "iou_matched": 0.875, **SHAPES, **MOVED,
-         "hierarchy": 5 / 6, "precision": 2 / 3, "f1": 0.8},
+        {"type": 2 / 3, "type_coarse": 2 / 3, "axis": PI / 6, "direction": PI / 3,
+         "origin": ROOT3 / 6, "origin_line": ROOT3 / 6, "limits_iou": 2 / 3,
+         "iou": (0.75 + 1 + 0) / 3, "iou_matched": 0.875, **SHAPES, **MOVED,
+         "hierarchy": 2 / 3, "precision": 2 / 3, "f1": 0.8},
     ),
     # The floor slides: one part of three is invented. The body keeps the back, half of its area.
     "invented part": (
         wardrobe((*DOORS, Link("tray", 0, LinkJoint("prismatic", (0, 1, 0), (0, 0, 0), 0.0, 0.3))),
                  (3, 0, 1, 1, 2)),
-        {"type": 5 / 6, "type_coarse": 5 / 6, "axis": PI / 12, "direction": PI / 6, "limits_iou": 5 / 6,
-         "iou": 5 / 6, "iou_voxel": 5 / 6, "cd": ROOT3 / 12, "articulated_cd": ROOT3 / 12,
-         "articulated_giou": CHANGED, "hierarchy": 5 / 6, "body_iou": 0.5, "precision": 2 / 3, "f1": 0.8},
+        {"type": 2 / 3, "type_coarse": 2 / 3, "axis": PI / 6, "direction": PI / 3, "limits_iou": 2 / 3,
+         "origin": ROOT3 / 6, "origin_line": ROOT3 / 6, "iou": 2 / 3, "iou_voxel": 2 / 3,
+         "cd": ROOT3 / 6, "articulated_cd": ROOT3 / 6, "articulated_giou": 1 / 3,
+         "hierarchy": 2 / 3, "body_iou": 0.5, "precision": 2 / 3, "f1": 0.8},
     ),
     "door that hangs on the other door": (
         wardrobe((BODY, LEFT, replace(RIGHT, parent=1))),
@@ -232,8 +233,48 @@ def test_a_static_object_is_right_when_nothing_is_predicted():
 def test_a_part_invented_on_a_static_object_scores_nothing():
     scores = scored(wardrobe((BODY, LEFT), (0, 0, 1, 1, 0)), STATIC)
     assert [scores[key] for key in ("type", "iou", "precision", "f1")] == [0.0] * 4
-    assert scores["axis"] == pytest.approx(PI / 2)
-    assert scores["origin"] == pytest.approx(ROOT3 / 2)
+    assert scores["cd"] == pytest.approx(ROOT3 / 2)
+    assert scores["axis"] is None  # truth has none: a number for it would be of other objects than another's
+
+
+def test_a_match_costs_no_more_than_a_miss():
+    # A right hinge whose origin is said to be 1000 away along the axis counts like half the diagonal.
+    far = with_left(replace(LEFT_HINGE, origin=(0.0, 0.0, 1000.0)))
+    assert scored(far)["origin"] == pytest.approx(ROOT3 / 4)
+    assert scored(far)["origin_matched"] == pytest.approx(500.0)
+
+
+def test_numbers_that_truth_does_not_have_are_not_defined_whatever_is_predicted():
+    drawers = with_left(LinkJoint("prismatic", (0, -1, 0), (0, 0, 0), 0.0, 0.4))
+    drawers = replace(drawers, links=(BODY, drawers.links[1], replace(RIGHT, joint=drawers.links[1].joint)))
+    for predicted in (drawers, wardrobe(), STATIC):
+        assert scored(predicted, drawers)["origin"] is None
+        assert scored(predicted, drawers)["axis"] is not None
+
+
+@pytest.mark.parametrize("flipped", [False, True])
+def test_a_joint_that_swings_to_both_sides_is_compared_in_one_direction(flipped):
+    # Neither limits nor axes tell at which end a swing starts: turning both around changes nothing.
+    swing = replace(LEFT_HINGE, lower=-1.0, upper=1.0)
+    wider = replace(LEFT_HINGE, lower=-1.0, upper=1.3)
+    if flipped:
+        swing = replace(swing, axis=(0, 0, 1))
+        wider = replace(wider, axis=(0, 0, 1), lower=-1.3, upper=1.0)
+    as_it_was = scored(
+        with_left(replace(LEFT_HINGE, lower=-1.0, upper=1.3)),
+        with_left(replace(LEFT_HINGE, lower=-1.0, upper=1.0)),
+    )
+    found = scored(with_left(wider), with_left(swing))
+    assert found["articulated_cd"] == pytest.approx(as_it_was["articulated_cd"], abs=1e-9)
+    assert 0.0 < found["articulated_cd"] < 0.05  # at most 0.3 rad off, and that at one end only
+
+
+def test_where_truth_moves_an_asset_that_does_not_is_not_executable(tmp_path):
+    file = tmp_path / "still.xml"
+    file.write_text("<mujoco><worldbody><body><geom size='1'/></body></worldbody></mujoco>")
+    for true, expected in ((wardrobe(), 0.0), (STATIC, 1.0)):
+        scores = Simart().score(Truth("it", true), Prediction(STATIC, file)).values
+        assert (scores["loads"], scores["executable"]) == (1.0, expected)
 
 
 @pytest.mark.parametrize("static", [False, True], ids=["moving", "static"])
@@ -255,6 +296,11 @@ def test_an_object_whose_truth_cannot_be_read_scores_the_worst():
     assert values["type"] == 0.0
     assert values["origin"] == pytest.approx(ROOT3 / 2)
     assert values["iou_matched"] is None
+
+
+def test_a_failed_object_has_a_row_for_every_part_that_was_missed():
+    parts = Simart().score(Truth("wardrobe", wardrobe()), None).parts
+    assert [(row["outcome"], row["true"]) for row in parts] == [("missed", "left"), ("missed", "right")]
 
 
 def test_every_part_has_a_row_that_says_how_it_ended():

@@ -138,6 +138,14 @@ def test_kinds_and_limits(
     assert (found.kind, found.lower, found.upper) == expected
 
 
+@pytest.mark.parametrize("world", ['<link name="world"/>', f'<link name="world">{BOX}</link>'])
+def test_a_base_that_floats_against_an_empty_world_is_the_base(world: str, tmp_path: Path) -> None:
+    float_ = '<joint name="float" type="floating"><parent link="world"/><child link="base"/></joint>'
+    path = write(tmp_path / "a.urdf", world, float_, BASE, LID, joint("continuous"))
+    kinds = {link.name: link.joint.kind for link in read(path).links}
+    assert kinds == {"world": "fixed", "base": "free" if BOX in world else "fixed", "lid": "continuous"}
+
+
 def test_the_default_axis_is_x(tmp_path: Path) -> None:
     assert lid_joint(tmp_path, "continuous").axis == (1.0, 0.0, 0.0)
 

@@ -19,6 +19,8 @@ from ..triangles import areas
 
 LinkJointKind = Literal["fixed", "revolute", "continuous", "prismatic", "ball", "free", "unknown"]
 _WITH_AXIS = ("revolute", "continuous", "prismatic")
+FULL_TURN = 2 * np.pi - 1e-3
+"""A turn whose range [rad] is no less is continuous, in formats that have no such kind."""
 _LARGEST = 1e12  # lengths and angles beyond are damage; their squares would not be exact
 
 
@@ -117,8 +119,8 @@ class Articulation:
         links: at least one. A link may have no face.
 
     Raises:
-        BadInputError: nothing there, labels of a wrong number or range, values that are not finite, a parent
-            that does not exist, or links that form a loop.
+        BadInputError: nothing there, no face with an area, labels of a wrong number or range, values that are
+            not finite, a parent that does not exist, or links that form a loop.
     """
 
     name: str
@@ -132,6 +134,7 @@ class Articulation:
         object.__setattr__(self, "faces", frozen_ints(np.asarray(self.faces).reshape(-1, 3)))
         object.__setattr__(self, "labels", frozen_ints(self.labels))
         _check_geometry(self)
+        _check_area(self)
         _check_labels(self)
         _check_tree(self.links)
 
@@ -251,6 +254,11 @@ def _check_geometry(value: Articulation) -> None:
         raise BadInputError(f"'{value.name}' has vertices that are NaN, infinite or beyond {_LARGEST:.0e}")
     if len(value.faces) and not 0 <= value.faces.min() <= value.faces.max() < len(value.vertices):
         raise BadInputError(f"'{value.name}' has face indices outside 0..{len(value.vertices) - 1}")
+
+
+def _check_area(value: Articulation) -> None:
+    if not value.weights.sum() > 0:
+        raise BadInputError(f"'{value.name}' has no surface: none of its faces has an area")
 
 
 def _check_labels(value: Articulation) -> None:

@@ -2,7 +2,8 @@
 
 Protocol: the base is fixed; 2 s of gravity; then each joint is driven to both ends of its range, alone, with
 contacts on, the others held at rest and gravity compensated. It has to come within 5 % of its range of either
-end.
+end. Asked is whether the way is free: friction, springs and rotor inertia of joints are taken out for that,
+and how strong a motor would have to be is not judged.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ TRAVEL_SECONDS = 1.0
 MOST_JOINTS = 64
 """Of more joints than these, as many are driven, evenly chosen."""
 _TIMESTEP = 0.0005, 0.002  # [s]; that of the file, within these
+_LEAST_RANGE = 1e-3  # [rad | m]: less is no movement
 _CALM = 0.5  # speed of joints in the end [rad/s | m/s]
 _OVER = 0.02, 0.001  # how far a joint may stand over a limit: of its range, and [rad | m]
 
@@ -145,6 +147,9 @@ def _travels(model: mujoco.MjModel, seconds: float) -> tuple[JointTravel, ...]:
 
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
     model.opt.integrator = int(mujoco.mjtIntegrator.mjINT_IMPLICITFAST)
+    for inside in (model.dof_armature, model.dof_frictionloss, model.dof_damping, model.jnt_stiffness):
+        inside[:] = 0.0
+    mujoco.mj_setConst(model, mujoco.MjData(model))  # contacts are as stiff as what they hold is heavy
     moving = one_axis_joints(model)
     chosen = np.linspace(0, len(moving) - 1, min(len(moving), MOST_JOINTS)).round().astype(int)
     driver = Driver(model, seconds)
@@ -154,7 +159,7 @@ def _travels(model: mujoco.MjModel, seconds: float) -> tuple[JointTravel, ...]:
 def _travel(model: mujoco.MjModel, driver: Driver, joint: int) -> JointTravel:
     name, kind = _name(model, joint), _kind(model, joint)
     lower, upper = _range(model, joint)
-    if not lower < upper:
+    if not upper - lower >= _LEAST_RANGE:
         stated = tuple(float(value) for value in model.jnt_range[joint])
         fault = f"has no travel: its limits are {stated[0]:.3g} .. {stated[1]:.3g}"
         return JointTravel(name, kind, False, False, 0.0, fault)

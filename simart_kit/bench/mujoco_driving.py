@@ -19,14 +19,13 @@ _PULL = (
 _DRIVE, _HOLD = 30.0, 60.0  # natural frequencies [1/s] of the driven joint and of those held at rest
 _LEAST = 0.2  # of the time for a whole range that the shortest way takes
 _AFTER = 0.5  # of it to get there after the goal has
-_SLIP = 0.01  # of the range that a joint lags before the full dry friction is made up for
 
 
 class Driver:
     """Moves one joint and holds the others, by forces that a motor with gravity compensation would give.
 
     The force is M a + bias - passive (computed torque), with a critically damped pull towards a goal that
-    moves smoothly. The pull is limited, so that contacts hold it; friction of joints is made up for.
+    moves smoothly. The pull is limited, so that contacts hold it.
 
     Args:
         model: its actuators are off.
@@ -87,7 +86,6 @@ class Driver:
         wanted[dof] = np.clip(pull, -_PULL * travel, _PULL * travel)
         mujoco.mj_mulM(model, data, force, wanted)
         force += data.qfrc_bias - data.qfrc_passive
-        force[dof] += model.dof_frictionloss[dof] * np.clip(error[dof] / (_SLIP * travel), -1.0, 1.0)
         data.qfrc_applied[:] = force
         mujoco.mj_step2(model, data)
 

@@ -112,6 +112,10 @@ def _fix_base(spec: mujoco.MjSpec) -> bool:
     import mujoco
 
     free = [joint for joint in spec.joints if joint.type == mujoco.mjtJoint.mjJNT_FREE]
+    for joint in free:
+        # MuJoCo lets a body pass through its parent, but not through one that stands still.
+        for child in joint.parent.bodies:
+            spec.add_exclude(bodyname1=joint.parent.name, bodyname2=child.name)
     for thing in [*free, *(spec.keys if free else [])]:
         spec.delete(thing)
     return bool(free)

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays import FloatArray, IntArray, frozen_floats, frozen_ints
-from ..errors import BadInputError
 from .articulation import Articulation
 from .frame import same_faces
 from .sampling import Cloud, Samples, sampled
@@ -56,13 +55,7 @@ def overlay(
         least: points of every part (when shared: of every true part in every predicted part), however small.
             A point cloud has no more than its own.
         seed: of the sampling; equal seeds give equal samples.
-
-    Raises:
-        BadInputError: one of them has no surface: all of its faces have no area.
     """
-    for value in (truth, prediction):
-        if not value.weights.sum() > 0:
-            raise BadInputError(f"'{value.name}' has no surface to compare: none of its faces has an area")
     partner = same_faces(truth, prediction)
     if partner is not None:
         return _shared(truth, prediction.labels[partner], points, least, seed)

@@ -17,15 +17,25 @@ _EVEN = 0.1  # ways to both sides that differ by less of the range than this are
 def way(joint: LinkJoint) -> tuple[float, float]:
     """Where a joint's travel starts, at the end nearer to rest, and where it ends [rad | units].
 
-    A continuous joint makes a full turn. (0, 0) for a joint without travel: limits not said or reversed, or a
-    kind without an axis. Of even ways to both sides, the first goes against the axis' largest component, so
-    that an axis and its opposite make the same movement.
+    From the lower to the upper end where it goes about as far to both sides; a continuous joint makes a full
+    turn. (0, 0) for a joint without travel: limits not said or reversed, or a kind without an axis.
     """
     lower, upper = travel(joint)
-    if opens_one_way(joint):
-        return (lower, upper) if upper >= -lower else (upper, lower)
-    leading = 0.0 if joint.axis is None else max(joint.axis, key=abs)
-    return (lower, upper) if leading >= 0 else (upper, lower)
+    return (upper, lower) if opens_one_way(joint) and -lower > upper else (lower, upper)
+
+
+def ways(true: LinkJoint, predicted: LinkJoint) -> tuple[tuple[float, float], tuple[float, float]]:
+    """The ways of a true joint and of the predicted one, to be compared state by state.
+
+    Each goes its own way where both open to one side. Where one does not, nobody can say at which end it
+    starts: then the prediction goes in the direction in which the truth does.
+    """
+    one, two = way(true), way(predicted)
+    if true.axis is None or predicted.axis is None or (opens_one_way(true) and opens_one_way(predicted)):
+        return one, two
+    alike = float(np.dot(true.axis, predicted.axis)) * (one[1] - one[0])
+    lower, upper = travel(predicted)
+    return one, (lower, upper) if alike >= 0 else (upper, lower)
 
 
 def travel(joint: LinkJoint) -> tuple[float, float]:
@@ -51,11 +61,18 @@ def opening(joint: LinkJoint) -> FloatArray | None:
     return np.array(joint.axis) * (1.0 if upper >= -lower else -1.0)
 
 
-def states(articulation: Articulation, count: int = STATES) -> list[FloatArray]:
-    """Poses evenly along the way of all joints at once: (L, 4, 4) `posed_T_rest` of the links, each."""
-    ways = [way(link.joint) for link in articulation.links]
-    fractions = np.linspace(0.0, 1.0, count)
-    return [posed(articulation, [a + f * (b - a) for a, b in ways]) for f in fractions]
+def states(
+    articulation: Articulation, joint_ways: Sequence[tuple[float, float]] | None = None, count: int = STATES
+) -> list[FloatArray]:
+    """Poses evenly along the way of all joints at once: (L, 4, 4) `posed_T_rest` of the links, each.
+
+    Args:
+        articulation: what moves.
+        joint_ways: (L,) where each joint starts and ends; the default is each joint's own `way`.
+        count: how many, the first at the start and the last at the end.
+    """
+    going = joint_ways or [way(link.joint) for link in articulation.links]
+    return [posed(articulation, [a + f * (b - a) for a, b in going]) for f in np.linspace(0.0, 1.0, count)]
 
 
 def posed(articulation: Articulation, positions: Sequence[float]) -> FloatArray:

@@ -50,10 +50,12 @@ class PredictionFormat(ABC):
     Attributes:
         name: of the format.
         layout: one line: which files make a prediction.
+        knows_frame: whether the files tell the way to the frame of the truth, so that `read` goes it.
     """
 
     name: ClassVar[str]
     layout: ClassVar[str]
+    knows_frame: ClassVar[bool] = False
 
     @abstractmethod
     def find(self, root: Path, name: str) -> Path | None:
@@ -113,11 +115,10 @@ def find_prediction(root: Path, name: str) -> tuple[PredictionFormat, Path]:
     """Who reads the prediction for an object, and where it is.
 
     Raises:
-        BadInputError: there is none; says which formats were looked for.
+        BadInputError: there is none, or a folder where it is not clear which file is meant.
     """
     for reader in prediction_formats():
         path = reader.find(root, name)
         if path is not None:
             return reader, path
-    known = "; ".join(f"{reader.name}: {reader.layout}" for reader in prediction_formats())
-    raise BadInputError(f"{root} holds no prediction for '{name}': looked for {known}")
+    raise BadInputError(f"no prediction for '{name}' in {root}")

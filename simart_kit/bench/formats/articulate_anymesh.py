@@ -115,7 +115,12 @@ def _files(folder: Path, parts: tuple[_Part, ...]) -> tuple[list[Path | None], l
     files = [there.get(part.name, there.get(str(part.id))) for part in parts]
     if not any(files):
         raise BadInputError(f"{folder} has no .glb named like a part or id of {TABLE}")
-    bare = [f"part '{part.name}' has no mesh" for part, file in zip(parts, files, strict=True) if not file]
+    bare = []
+    for part, file in zip(parts, files, strict=True):
+        if file is None and KINDS.get(part.joint.strip().lower()) != "fixed":
+            raise BadInputError(f"{folder}: part '{part.name}' moves and has no mesh {part.name}.glb")
+        if file is None:
+            bare.append(f"part '{part.name}' has no mesh")
     spare = [f"{file.name} is of no part: left out" for file in there.values() if file not in files]
     return files, bare + spare
 

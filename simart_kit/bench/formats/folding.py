@@ -1,4 +1,4 @@
-"""Joints with several degrees of freedom, which URDF has to write as a chain of empty links."""
+"""Links that are there for the format's sake: those between two joints, and the world below a base."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..articulation import Articulation, Link
+from ..articulation import Articulation, Link, LinkJoint
 
 
 def folded(articulation: Articulation) -> Articulation:
@@ -26,6 +26,22 @@ def folded(articulation: Articulation) -> Articulation:
         links = [replace(k, parent=k.parent - (k.parent > helper)) for k in links]
         labels = labels - (labels > helper)
     return replace(articulation, links=tuple(links), labels=labels)
+
+
+def grounded(articulation: Articulation) -> Articulation:
+    """The object with its base standing still, where all that there is floats.
+
+    Formats say of an object that is not fixed to the ground that it has a free joint, against nothing or
+    against an empty link such as "world". That is no movement of a part. The first link that floats so is
+    the base, unless something else stands on the ground or is hinged to it.
+    """
+    links, seen = list(articulation.links), set(articulation.labels.tolist())
+    empty = {i for i, link in enumerate(links) if link.parent < 0 and i not in seen}
+    lowest = [i for i, k in enumerate(links) if k.parent in empty or (k.parent < 0 and i in seen)]
+    if not lowest or any(links[i].joint.kind != "free" for i in lowest):
+        return articulation
+    links[lowest[0]] = replace(links[lowest[0]], joint=LinkJoint())
+    return replace(articulation, links=tuple(links))
 
 
 def _helper(links: list[Link], with_faces: set[int]) -> int | None:

@@ -14,7 +14,7 @@ from . import PredictionFormat
 from .label_files import read_npy
 from .truth_tables import ObjectTable, read_table
 
-MOST_LABELS = 10_000
+MOST_LABELS = 1000
 _NONE = (-1, -2)  # P3-SAM: no mask, and too small a piece
 
 
@@ -29,6 +29,7 @@ class LabelArray(PredictionFormat):
 
     name = "labels"
     layout = "NAME.npy or NAME/labels.npy, one label a face, with joints in NAME.json if there are any"
+    knows_frame = True
 
     def find(self, root: Path, name: str) -> Path | None:
         single = root / f"{name}.npy"

@@ -10,6 +10,7 @@ import numpy as np
 from ...arrays import vec3
 from ...errors import BadInputError
 from ..articulation import Articulation, Link, LinkJoint
+from .folding import grounded
 from .mesh_files import Triangles, joined, moved
 from .primitives import box, capsule, cylinder, ellipsoid
 from .xml_files import nan_attributes, read_xml
@@ -44,7 +45,7 @@ def articulation(model: mujoco.MjModel, name: str) -> Articulation:
 
     Bodies are links, in MuJoCo's order; the world is one where it has shapes other than floors. Limits count
     from the pose of the file, which a joint's `ref` names. Of several joints of a body the first is its joint
-    and the rest are in `also`. Where nothing else stands on the world, the first free body is the root.
+    and the rest are in `also`. Where everything floats, the first body stands still.
     """
     import mujoco
 
@@ -62,7 +63,7 @@ def articulation(model: mujoco.MjModel, name: str) -> Articulation:
     if not pieces:
         raise BadInputError("no body has a shape")
     vertices, faces = joined(pieces)
-    return Articulation(name, vertices, faces, np.concatenate(labels), tuple(_rooted(links)))
+    return grounded(Articulation(name, vertices, faces, np.concatenate(labels), tuple(links)))
 
 
 def _shown(model: mujoco.MjModel, body: int) -> list[int]:
@@ -126,15 +127,6 @@ def _joint(model: mujoco.MjModel, data: mujoco.MjData, joint: int) -> LinkJoint:
     if kind == int(mujoco.mjtJoint.mjJNT_SLIDE):
         return LinkJoint("prismatic", axis, origin, lower, upper, name)
     return LinkJoint("continuous" if lower is None else "revolute", axis, origin, lower, upper, name)
-
-
-def _rooted(links: list[Link]) -> list[Link]:
-    """The links with the first free one standing still where no other root does."""
-    roots = [index for index, link in enumerate(links) if link.parent < 0]
-    if not all(links[index].joint.kind == "free" for index in roots):
-        return links
-    still = Link(links[roots[0]].name)
-    return [still if index == roots[0] else link for index, link in enumerate(links)]
 
 
 def _pose(position: object, turn: object) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:

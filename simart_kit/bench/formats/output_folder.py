@@ -22,6 +22,7 @@ class OutputFolder(PredictionFormat):
 
     name = "simart-kit"
     layout = f"NAME/{ASSET_FILE}, NAME/output/{ASSET_FILE} or {OBJECTS}/NAME/output/{ASSET_FILE}"
+    knows_frame = True
 
     def find(self, root: Path, name: str) -> Path | None:
         for folder in (root / name, root / name / "output", root / OBJECTS / name / "output"):
@@ -32,7 +33,10 @@ class OutputFolder(PredictionFormat):
     def read(self, path: Path, truth: Truth) -> Prediction:
         asset = load_asset(path)
         source_from_asset = _inverse(path, asset.asset_from_source)
-        placed = in_asset_frame(asset).transformed(source_from_asset)
+        try:
+            placed = in_asset_frame(asset).transformed(source_from_asset)
+        except BadInputError as error:
+            raise BadInputError(f"{path / ASSET_FILE}: {error}") from error
         return Prediction(placed, _simulator_file(path))
 
 

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from ...arrays import FloatArray, IntArray, Vec3, frozen_ints, vec3
 from ...errors import BadInputError
 from ...mesh import UpAxis, z_up_from
-from ..articulation import Articulation, Link, LinkJoint
+from ..articulation import FULL_TURN, Articulation, Link, LinkJoint
 from ..cases import Prediction, Truth
 from ..frame import unit_from_object
 from ..plucker import lines
@@ -38,7 +38,6 @@ from .files import reading
 from .mesh_files import read_triangles
 
 _Arrays = Mapping[str, NDArray[Any]]
-_FULL_TURN = 2 * np.pi - 1e-3  # [rad]: stored in single precision
 _SAME_BOX = 5e-3  # of the longest side; boxes of sampled points fall short by up to this
 _NEAREST = (
     "joint origins are the points of the axes that are nearest to the frame's origin: "
@@ -93,6 +92,7 @@ class ParticulatePrediction(PredictionFormat):
 
     name = "particulate"
     layout = "NAME/pred.npz or NAME/eval/pred.npz with pred.obj beside it, or NAME.npz with points"
+    knows_frame = True
 
     def find(self, root: Path, name: str) -> Path | None:
         """The first of NAME/pred.npz, NAME/eval/pred.npz and a NAME.npz with points that there is."""
@@ -201,8 +201,8 @@ def _links(path: Path, arrays: _Arrays) -> tuple[Link, ...]:
 
 def _turn(name: str, axis: Vec3, origin: Vec3, limits: FloatArray) -> LinkJoint:
     lower, upper = (float(v) for v in limits)
-    if upper - lower >= _FULL_TURN:
-        return LinkJoint("continuous", axis, origin, name=name)
+    if upper - lower >= FULL_TURN:
+        return LinkJoint("continuous", axis, origin, lower, upper, name)
     return LinkJoint("revolute", axis, origin, lower, upper, name)
 
 

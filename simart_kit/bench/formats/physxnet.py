@@ -27,7 +27,7 @@ import numpy as np
 
 from ...arrays import frozen_ints
 from ...errors import BadInputError
-from ..articulation import Articulation, Link, LinkJoint, LinkJointKind
+from ..articulation import FULL_TURN, Articulation, Link, LinkJoint, LinkJointKind
 from ..cases import Truth
 from . import DEFAULT_VARIANT, TruthFormat
 from .files import reading
@@ -58,7 +58,7 @@ class PhysXNet(TruthFormat):
         return {path.stem: path for path in files if path.match("finaljson/*.json")}
 
     def read(self, path: Path, variant: str = DEFAULT_VARIANT) -> Truth:
-        """Read an object; type CB is revolute, and right as prismatic, too."""
+        """Read an object; type CB is revolute, and right as prismatic, too; a full turn is continuous."""
         if variant != DEFAULT_VARIANT:
             raise BadInputError(f"{path}: no variant '{variant}': PhysXNet has '{DEFAULT_VARIANT}' only")
         table = _table(path)
@@ -164,6 +164,8 @@ def _joint(name: str, kind: LinkJointKind, block: list[float]) -> LinkJoint:
     if lower > upper:
         raise BadInputError(f"{name}: range runs from {lower} to {upper}")
     unit = math.pi if kind == "revolute" else 1.0
+    if kind == "revolute" and (upper - lower) * unit >= FULL_TURN:
+        kind = "continuous"
     return LinkJoint(kind, (x, y, z), (u, v, w), lower * unit, upper * unit, name)
 
 

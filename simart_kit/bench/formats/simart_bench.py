@@ -20,6 +20,7 @@ import numpy as np
 
 from ...asset import unique_names
 from ...errors import BadInputError
+from ...triangles import areas
 from ..articulation import Articulation, ordered
 from ..cases import Truth
 from . import DEFAULT_VARIANT, TruthFormat
@@ -130,6 +131,8 @@ def _articulation(name: str, table: ObjectTable, files: _Files) -> Articulation:
     except BadInputError as error:
         raise BadInputError(f"{files.table}: {error}") from error
     vertices, faces = read_surface(files.mesh)
+    if not areas(vertices[faces]).sum() > 0:
+        raise BadInputError(f"{files.mesh}: none of its faces has an area")
     face_part = read_npz_labels(files.labels, FACE_PART)
     if len(face_part) != len(faces):
         raise BadInputError(
@@ -139,6 +142,8 @@ def _articulation(name: str, table: ObjectTable, files: _Files) -> Articulation:
         labels = table.labels(face_part)
     except BadInputError as error:
         raise BadInputError(f"{files.labels}: {error}") from error
+    if not (labels >= 0).any():
+        raise BadInputError(f"{files.labels}: no face is of a part: all are -1")
     try:
         return Articulation(name, vertices, faces, labels, links)
     except BadInputError as error:
@@ -146,14 +151,15 @@ def _articulation(name: str, table: ObjectTable, files: _Files) -> Articulation:
 
 
 def _objects(root: Path) -> Iterator[Path]:
-    """Folders with a gt.json, which are not looked into further, and NAME.gt.json files; links followed."""
+    """Folders with a gt.json or gt.npz, not looked into further, and NAME.gt.json files; links followed."""
     seen: set[Path] = set()
     for place, folders, files in os.walk(root, followlinks=True):
         folder = Path(place)
         real = folder.resolve()
-        if TABLE in files and real not in seen:
+        ours = TABLE in files or LABELS in files
+        if ours and real not in seen:
             yield folder
-        if TABLE in files or real in seen:
+        if ours or real in seen:
             folders.clear()
         else:
             yield from (folder / name for name in sorted(files) if name.endswith(f".{TABLE}"))

@@ -14,7 +14,7 @@ from ...errors import BadInputError
 from ..articulation import Articulation
 from ..cases import Prediction, Truth
 from . import DEFAULT_VARIANT, PredictionFormat, TruthFormat
-from .folding import folded
+from .folding import folded, grounded
 from .found_files import USUAL_STEMS, files_below, named, object_name
 from .mesh_files import joined, moved
 from .urdf_shapes import link_surface
@@ -110,7 +110,7 @@ def read_urdf(path: Path, name: str) -> tuple[Articulation, tuple[str, ...]]:
         if not pieces:
             raise BadInputError("no link has a shape")
         vertices, faces = joined(pieces)
-        whole = folded(Articulation(name, vertices, faces, np.concatenate(labels), tree.links))
+        whole = grounded(folded(Articulation(name, vertices, faces, np.concatenate(labels), tree.links)))
     except BadInputError as error:
         raise BadInputError(f"{path}: {error}") from error
     gone = sorted({link.name for link in tree.links} - {link.name for link in whole.links})

@@ -84,18 +84,3 @@ def hierarchy(
     """
     matched = dict(pairs) | {-1: -1}
     return [float(matched.get(true_parents[a]) == predicted_parents[b]) for a, b in pairs]
-
-
-def symmetric_mean(
-    true_side: Sequence[float | None], predicted_side: Sequence[float | None], worst: float
-) -> float | None:
-    """Mean of two means: over true parts, with those missed, and over predicted ones, with those invented.
-
-    Source: Particulate and SINGAPO average both directions of matching. None entries, where a number is not
-    defined for a part, are left out. Where one side has no entry at all and the other has, nothing was there
-    to compare with, and the empty side counts as `worst`. None when neither has.
-    """
-    sides = [[v for v in side if v is not None] for side in (true_side, predicted_side)]
-    if not any(sides):
-        return None
-    return float(np.mean([np.mean(side) if side else worst for side in sides]))

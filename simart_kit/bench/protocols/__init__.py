@@ -19,8 +19,9 @@ class Metric:
         key: in results.json and results.csv.
         title: heading of its column.
         better: which way is better; "" for a number that is neither.
-        text: one sentence: what it is, with its unit.
+        text: one sentence: what it is.
         headline: whether the summary table shows it.
+        unit: such as "rad", or "size" for the object's longest side; "" for a number without one.
     """
 
     key: str
@@ -28,6 +29,7 @@ class Metric:
     better: Literal["higher", "lower", ""]
     text: str
     headline: bool = False
+    unit: str = ""
 
 
 @dataclass(frozen=True)
@@ -37,10 +39,12 @@ class Scores:
     Attributes:
         values: by metric key; None where the metric is not defined for this object.
         parts: a row a matched, missed or invented part: names, how it ended, its own numbers by key.
+        notes: what a person should know besides, a sentence each.
     """
 
     values: Mapping[str, float | None]
     parts: tuple[Mapping[str, Any], ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 class Protocol(ABC):

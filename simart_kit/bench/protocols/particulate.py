@@ -72,7 +72,8 @@ class Particulate(Protocol):
         "gIoU of a moved pair takes the box that encloses the boxes at rest, not the moved ones: "
         "boxes that are equal at rest and move away from each other can keep a gIoU of 1.",
         "Each object is scaled by its own box, so that a wrong size or place of the whole goes unseen.",
-        "A pair of boxes that lie flat in one plane has no gIoU, and makes that of its object -1.",
+        "A pair of boxes that lie flat in one plane has no gIoU and counts with -1, equal or not.",
+        "The same movement written with axis and limits turned around is run through backwards, and costs.",
         "Parts without surface are not seen: neither missed nor counted as invented.",
         "Joint type, axis, origin and limits are not measured as such.",
         "Departures: the public script counts the states after the first twice in its mean of gIoU, swaps "
@@ -116,9 +117,8 @@ def _values(pairs: Pairs) -> dict[str, float | None]:
         for prefix, states in ((_REST, table[:, :1]), (_MOVED, table[:, 1:])):
             punished = float(np.mean([pairs.punished(column, worst[key]) for column in states.T]))
             matched = float(states.mean())
-            # Only gIoU can be NaN: of boxes that lie flat in one plane.
-            found[f"{prefix}_{key}"] = -1.0 if np.isnan(punished) else punished
-            found[f"{prefix}_{key}_nopunish"] = None if np.isnan(matched) else matched
+            found[f"{prefix}_{key}"] = punished
+            found[f"{prefix}_{key}_nopunish"] = matched
     return found
 
 

@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from ...arrays import FloatArray, IntArray
-from ...errors import BadInputError
 from ...sweeping import move, sample_surface
 from ..articulation import Articulation, LinkJoint
 from ..frame import same_faces, unit_from_object
@@ -99,8 +98,6 @@ def travel(joint: LinkJoint) -> tuple[float, float]:
 
 
 def _unit(side: Articulation) -> FloatArray:
-    if not side.weights.sum() > 0:
-        raise BadInputError(f"'{side.name}' has no surface to compare: none of its faces has an area")
     return unit_from_object(side.bounds)
 
 

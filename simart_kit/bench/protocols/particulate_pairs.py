@@ -81,9 +81,7 @@ class Pairs:
         return _measured(motions, lambda state: measure(a, b, motions[state]))
 
     def _chamfer(self, a: int, b: int, true_T_predicted: FloatArray) -> float:
-        # Moving both alike changes no distance, so the true part may stay at rest.
-        other = move(true_T_predicted, self.predicted.part_points[b])
-        return chamfer_squared(self.true.part_points[a], other)
+        return chamfer_squared(self.true.part_points[a], self.predicted.part_points[b], true_T_predicted)
 
     def _giou(self, a: int, b: int, true_T_predicted: FloatArray) -> float:
         one, two = bounds(self.true.part_points[a]), bounds(self.predicted.part_points[b])
@@ -112,13 +110,13 @@ def moved_giou(true_box: FloatArray, predicted_box: FloatArray, true_T_predicted
         true_T_predicted: (4, 4) motion of the predicted box, seen from the true one.
 
     Returns:
-        NaN for boxes that both lie flat in one plane.
+        -1 for boxes that both lie flat in one plane, of which there is none: Particulate's for what is NaN.
     """
     enclosing = float(
         np.prod(np.maximum(true_box[1], predicted_box[1]) - np.minimum(true_box[0], predicted_box[0]))
     )
     if not enclosing > 0:
-        return float("nan")
+        return -1.0
     if _alike(true_T_predicted, np.eye(4)):
         return box_giou(true_box, predicted_box)
     one, two = (float(np.prod(box[1] - box[0])) for box in (true_box, predicted_box))

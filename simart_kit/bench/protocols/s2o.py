@@ -29,6 +29,21 @@ _WORDS: dict[str, Openable] = {
     "lids": "lid",
 }
 _BY_KIND: dict[str, Openable] = {"prismatic": "drawer", "revolute": "door", "continuous": "door"}
+# Words of names of moving parts, as in PartNet-Mobility, that are none of the three.
+_OTHERS = {"arm", "blade", "button", "caster", "fan", "handle", "handles", "key", "knob", "knobs", "lever"}
+_OTHERS |= {
+    "pedal",
+    "rack",
+    "seat",
+    "shelf",
+    "spout",
+    "sprinkler",
+    "stem",
+    "switch",
+    "tray",
+    "wheel",
+    "wheels",
+}
 _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
 _LEVELS = {
     "pd": ("PD", "part detected: same class and IoU of at least 0.5"),
@@ -52,7 +67,8 @@ class S2O(Protocol):
     """M, MA and MAO of drawers, doors and lids; PD is the detection that all of them start from.
 
     Parts are rigid links that move, have a surface and are a drawer, a door or a lid. The class is the last
-    of these words in the label, else in the name; when neither tells, a slide is a drawer and a hinge a door.
+    of these words in the label, or without one in the name; where a name tells nothing, a slide is a drawer
+    and a hinge a door.
     Predictions, the most confident first and then in their order, each take the free true part of their class
     with the largest overlap, if that is at least 0.5 of face area (points, where meshes differ). The sign of
     an axis is ignored, and so is the origin of a slide. Where a part has several true joints, any is right.
@@ -100,14 +116,18 @@ class S2O(Protocol):
 
 
 def openable(link: Link) -> Openable | None:
-    """What a link is: by the words of its label, then of its name, then by the kind of its joint."""
+    """What a link is: by its label, or without one by its name; by the kind of its joint if neither tells.
+
+    The last of the words drawer, door and lid counts. Another label, or a name such as "left_knob", is of a
+    part that S2O does not know; names such as "link_3" tell nothing.
+    """
     if not link.joint.moves:
         return None
-    for text in (link.label, link.name):
-        words = [_WORDS[word] for word in map(str.lower, _WORD.findall(text)) if word in _WORDS]
-        if words:
-            return words[-1]
-    return _BY_KIND.get(link.joint.kind)
+    words = [word.lower() for word in _WORD.findall(link.label or link.name)]
+    known = [_WORDS[word] for word in words if word in _WORDS]
+    if known:
+        return known[-1]
+    return None if link.label or _OTHERS & set(words) else _BY_KIND.get(link.joint.kind)
 
 
 def _openables(articulation: Articulation) -> dict[int, Openable]:

@@ -22,14 +22,19 @@ class PartMetric:
         key: of the number.
         worst: what a part without partner gets; lengths as a share of the object's diagonal.
         is_length: whether `worst` is such a share.
-        defined: whether a joint has this number at all, asked of the true joint of a pair or of a missed
-            part, and of the predicted joint of an invented one.
+        of_joint: whether a true joint has this number at all; None for a number that every part has.
+        of_surface: whether it needs surfaces: points leave cells of theirs empty.
     """
 
     key: str
     worst: float
     is_length: bool = False
-    defined: Callable[[LinkJoint], bool] = lambda joint: True
+    of_joint: Callable[[LinkJoint], bool] | None = None
+    of_surface: bool = False
+
+    def defined(self, joint: LinkJoint) -> bool:
+        """Whether a true part with this joint has the number."""
+        return self.of_joint is None or self.of_joint(joint)
 
 
 def _has_axis(joint: LinkJoint) -> bool:
@@ -47,13 +52,13 @@ def _has_line(joint: LinkJoint) -> bool:
 PART_METRICS = (
     PartMetric("type", 0.0),
     PartMetric("type_coarse", 0.0),
-    PartMetric("axis", np.pi / 2, defined=_has_axis),
-    PartMetric("direction", np.pi, defined=_opens),
-    PartMetric("origin", 0.5, is_length=True, defined=_has_line),
-    PartMetric("origin_line", 0.5, is_length=True, defined=_has_line),
-    PartMetric("limits_iou", 0.0, defined=limited),
+    PartMetric("axis", np.pi / 2, of_joint=_has_axis),
+    PartMetric("direction", np.pi, of_joint=_opens),
+    PartMetric("origin", 0.5, is_length=True, of_joint=_has_line),
+    PartMetric("origin_line", 0.5, is_length=True, of_joint=_has_line),
+    PartMetric("limits_iou", 0.0, of_joint=limited),
     PartMetric("iou", 0.0),
-    PartMetric("iou_voxel", 0.0),
+    PartMetric("iou_voxel", 0.0, of_surface=True),
     PartMetric("cd", 0.5, is_length=True),
     PartMetric("articulated_cd", 0.5, is_length=True),
     PartMetric("articulated_giou", -1.0),
@@ -61,40 +66,50 @@ PART_METRICS = (
 )
 
 
-# key, title, which way is better, what it is; each comes penalised and matched-only.
-_TWICE: tuple[tuple[str, str, Literal["higher", "lower"], str], ...] = (
-    ("type", "Type", "higher", "share of moving parts whose joint is of the true kind"),
-    ("type_coarse", "Type, coarse", "higher", "the same with continuous counted as revolute"),
-    ("axis", "Axis", "lower", "angle between true and predicted axis, whichever way they point [rad]"),
-    ("direction", "Direction", "lower", "angle between the directions in which the joints open [rad]"),
-    ("origin", "Origin", "lower", "distance of the origins of joints that turn [object size]"),
-    ("origin_line", "Origin, line", "lower", "distance of the origin from the true axis line [object size]"),
-    ("limits_iou", "Limits", "higher", "overlap of the ranges of travel along the true axis"),
-    ("iou", "IoU", "higher", "overlap of true and predicted part, by face area or points"),
-    ("iou_voxel", "IoU, voxels", "higher", "overlap of the parts' surface voxels in a 64^3 grid"),
-    ("cd", "CD", "lower", "chamfer distance of the parts, mean of the two directed means [object size]"),
-    ("articulated_cd", "CD, moving", "lower", "the same over five states of all joints [object size]"),
-    ("articulated_giou", "gIoU, moving", "higher", "generalised IoU of the parts' boxes over five states"),
-    ("hierarchy", "Hierarchy", "higher", "share of parts whose parent is the match of the true parent"),
-)
-_ONCE: tuple[tuple[str, str, Literal["higher", "lower"], str], ...] = (
-    ("range_turn_matched", "Range, turns", "lower", "error of the range of matched turns [rad]"),
-    ("range_slide_matched", "Range, slides", "lower", "error of the range of matched slides [object size]"),
-    ("body_iou", "Body IoU", "higher", "overlap of what does not move"),
-    ("precision", "Precision", "higher", "share of predicted moving parts with IoU 0.5 with a true one"),
-    ("recall", "Recall", "higher", "share of true moving parts with IoU 0.5 with a predicted one"),
-    ("f1", "F1", "higher", "harmonic mean of precision and recall"),
+# key, title, unit, which way is better, what it is; each comes penalised and matched-only.
+_Told = tuple[str, str, str, Literal["higher", "lower"], str]
+_TWICE: tuple[_Told, ...] = (
+    ("type", "Type", "", "higher", "Share of moving parts whose joint is of the true kind"),
+    ("type_coarse", "Type, coarse", "", "higher", "The same with continuous counted as revolute"),
+    ("axis", "Axis", "rad", "lower", "Angle of true and predicted axis as lines, whatever the kind of joint"),
     (
-        "penetration",
-        "Penetration",
+        "direction",
+        "Direction",
+        "rad",
         "lower",
-        "share of a part's surface that passes through others on its way",
+        "Angle of the directions of opening, the longer way from 0",
     ),
-    ("loads", "Loads", "higher", "1 when MuJoCo loads the predicted asset"),
-    ("settles", "Settles", "higher", "1 when it comes to rest under gravity"),
-    ("travels", "Travels", "higher", "share of its joints that can be driven through their range"),
-    ("executable", "Executable", "higher", "1 when it loads, settles and all its joints travel"),
+    ("origin", "Origin", "size", "lower", "Distance of the origins of joints that turn"),
+    ("origin_line", "Origin, line", "size", "lower", "Distance of the origin from the true axis line"),
+    ("limits_iou", "Limits", "", "higher", "Overlap of the ranges of travel along the true axis"),
+    ("iou", "IoU", "", "higher", "Overlap of true and predicted part, by face area or points"),
+    ("iou_voxel", "IoU, voxels", "", "higher", "Overlap of the parts' surface voxels in a 64^3 grid"),
+    ("cd", "CD", "size", "lower", "Chamfer distance of the parts, mean of the two directed means"),
+    ("articulated_cd", "CD, moving", "size", "lower", "The same over five states of all joints"),
+    (
+        "articulated_giou",
+        "gIoU, moving",
+        "",
+        "higher",
+        "Generalised IoU of the parts' boxes in five states",
+    ),
+    ("hierarchy", "Hierarchy", "", "higher", "Share of parts whose parent is the match of the true parent"),
 )
+_ONCE: tuple[_Told, ...] = (
+    ("range_turn_matched", "Range, turns", "rad", "lower", "Error of the range of matched turns."),
+    ("range_slide_matched", "Range, slides", "size", "lower", "Error of the range of matched slides."),
+    ("body_iou", "Body IoU", "", "higher", "Overlap of what does not move."),
+    ("precision", "Precision", "", "higher", "Share of predicted moving parts with IoU 0.5 with a true one."),
+    ("recall", "Recall", "", "higher", "Share of true moving parts with IoU 0.5 with a predicted one."),
+    ("f1", "F1", "", "higher", "Harmonic mean of precision and recall."),
+    ("penetration", "Penetration", "", "lower",
+     "Share of the surface of what was predicted to move that passes through other parts; others rest."),
+    ("loads", "Loads", "", "higher", "1 when MuJoCo loads the predicted asset."),
+    ("settles", "Settles", "", "higher", "1 when it comes to rest under gravity."),
+    ("travels", "Travels", "", "higher", "Share of its joints that can be driven through their range."),
+    ("executable", "Executable", "", "higher",
+     "1 when it loads, settles and all its joints travel; 0 where truth moves and it has none."),
+)  # fmt: skip
 _HEADLINES = ("type", "axis", "origin", "iou", "cd", "f1", "executable")
 _ZERO = ("body_iou", "precision", "recall", "f1", "loads", "settles", "travels", "executable")
 
@@ -104,11 +119,13 @@ WORST = {m.key: m.worst for m in PART_METRICS} | dict.fromkeys(_ZERO, 0.0)
 
 def _metrics() -> tuple[Metric, ...]:
     found = []
-    for key, title, better, text in _TWICE:
-        penalised = f"{text}; missed and invented parts count with the worst"
-        found.append(Metric(key, title, better, penalised, headline=key in _HEADLINES))
-        found.append(Metric(f"{key}_matched", f"{title}, matched", better, f"{text}; matched parts only"))
-    found += [Metric(key, title, better, text, key in _HEADLINES) for key, title, better, text in _ONCE]
+    for key, title, unit, better, text in _TWICE:
+        penalised = f"{text}; missed and invented parts count with the worst."
+        found.append(Metric(key, title, better, penalised, key in _HEADLINES, unit))
+        matched = f"{text}; matched parts only."
+        found.append(Metric(f"{key}_matched", f"{title}, matched", better, matched, unit=unit))
+    for key, title, unit, better, text in _ONCE:
+        found.append(Metric(key, title, better, text, key in _HEADLINES, unit))
     return tuple(found)
 
 

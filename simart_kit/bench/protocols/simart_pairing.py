@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -10,15 +10,16 @@ from typing import Any
 import numpy as np
 
 from ...arrays import FloatArray
+from ...sweeping import move
 from ..articulation import Articulation, Link, LinkJoint
 from ..frame import unit_from_object
 from ..metrics import joints
-from ..metrics.parts import hierarchy, iou_matrix, match, symmetric_mean
-from ..metrics.shape import box_giou, chamfer, moved
+from ..metrics.parts import FOUND_IOU, hierarchy, iou_matrix, match
+from ..metrics.shape import box_giou, chamfer, chamfer_moved
 from ..metrics.voxel_shape import part_grids, voxel_iou
 from ..overlay import Overlay, overlay
 from ..sampling import Cloud
-from ..states import states
+from ..states import states, way, ways
 from .simart_metrics import PartMetric
 
 _THICK = 0.005  # of the object's size
@@ -52,7 +53,7 @@ class Pairing:
         frame = unit_from_object(truth.bounds)
         truth, prediction = truth.rigid().transformed(frame), prediction.rigid().transformed(frame)
         laid = overlay(truth, prediction)
-        true_parts, predicted_parts = _moving_surfaces(truth), _moving_surfaces(prediction)
+        true_parts, predicted_parts = moving_surfaces(truth), moving_surfaces(prediction)
         shape = (len(truth.links), len(prediction.links))
         iou = iou_matrix(laid.true_labels, laid.predicted_labels, laid.weights, shape)
         pairs = match(iou[np.ix_(true_parts, predicted_parts)])
@@ -93,27 +94,38 @@ class Pairing:
     def rows(self) -> tuple[dict[str, Any], ...]:
         """A row a part: matched pairs, then missed true parts, then invented ones."""
         matched = [self._pair_row(a, b, same) for (a, b), same in zip(self.pairs, self._parents, strict=True)]
-        missed = [{"outcome": "missed", **_told("true", self._true(a))} for a in self.missed]
-        invented = [{"outcome": "invented", **_told("predicted", self._predicted(b))} for b in self.invented]
+        missed = missed_rows(self._true(a) for a in self.missed)
+        invented = [
+            {"outcome": "invented", "found": False, **_told("predicted", self._predicted(b))}
+            for b in self.invented
+        ]
         return (*matched, *missed, *invented)
 
     def penalised(self, metric: PartMetric) -> float | None:
-        """Mean in which missed and invented parts count with the worst; see `symmetric_mean`."""
+        """Mean over pairs, missed and invented parts, the latter two with the worst.
+
+        None where truth has no such number, whatever was predicted: two systems that are compared then have
+        numbers for the same objects.
+        """
+        if metric.of_surface and self._sparse:
+            return None
         worst = metric.worst * (self.truth.diagonal if metric.is_length else 1.0)
 
-        def entry(joint: LinkJoint, value: float | None = None) -> float | None:
-            if value is not None:
-                return value
-            return worst if metric.defined(joint) else None
+        def entry(value: float | None) -> float:
+            if value is None:
+                return worst
+            return min(value, worst) if metric.is_length else value  # a match is no worse than a miss
 
         # Rows begin with those of the pairs.
-        matched = [
-            entry(self._true(a).joint, row[metric.key])
+        entries = [
+            entry(row[metric.key])
             for (a, _), row in zip(self.pairs, self.rows, strict=False)
+            if metric.defined(self._true(a).joint)
         ]
-        missed = [entry(self._true(a).joint) for a in self.missed]
-        invented = [entry(self._predicted(b).joint) for b in self.invented]
-        return symmetric_mean(matched + missed, matched + invented, worst)
+        entries += [worst for a in self.missed if metric.defined(self._true(a).joint)]
+        if metric.of_joint is None or entries:
+            entries += [worst] * len(self.invented)
+        return float(np.mean(entries)) if entries else None
 
     def matched(self, key: str) -> float | None:
         """Mean over the matched pairs for which a number is defined; None without any."""
@@ -132,15 +144,21 @@ class Pairing:
         one, two = self.overlay.truth.of(i), self.overlay.prediction.of(j)
         return {
             "outcome": "matched",
+            "found": float(self.link_iou[i, j]) >= FOUND_IOU,
             **_told("true", true),
             **_told("predicted", predicted),
             **_joint_numbers(true.joint, predicted.joint),
             "iou": float(self.link_iou[i, j]),
-            "iou_voxel": voxel_iou(self._grids[0][i], self._grids[1][j]),
+            "iou_voxel": None if self._sparse else voxel_iou(self._grids[0][i], self._grids[1][j]),
             "cd": chamfer(one, two),
             **_moved_numbers(one, two, [(t[i], p[j]) for t, p in self._states]),
             "hierarchy": same_parent,
         }
+
+    @property
+    def _sparse(self) -> bool:
+        """Whether one is a cloud, whose points leave cells of its surface empty."""
+        return self.truth.is_cloud or self.prediction.is_cloud
 
     @cached_property
     def _grids(self) -> tuple[Any, Any]:
@@ -148,13 +166,28 @@ class Pairing:
 
     @cached_property
     def _states(self) -> list[tuple[FloatArray, FloatArray]]:
-        return list(zip(states(self.truth), states(self.prediction), strict=True))
+        going = [[way(link.joint) for link in side.links] for side in (self.truth, self.prediction)]
+        for a, b in self.pairs:
+            i, j = self.true_parts[a], self.predicted_parts[b]
+            going[0][i], going[1][j] = ways(self._true(a).joint, self._predicted(b).joint)
+        return list(zip(states(self.truth, going[0]), states(self.prediction, going[1]), strict=True))
 
     @cached_property
     def _parents(self) -> list[float]:
         true = _moving_parents(self.truth, self.true_parts)
         predicted = _moving_parents(self.prediction, self.predicted_parts)
         return hierarchy(true, predicted, self.pairs)
+
+
+def missed_rows(links: Iterable[Link]) -> list[dict[str, Any]]:
+    """The rows of true parts without partner."""
+    return [{"outcome": "missed", "found": False, **_told("true", link)} for link in links]
+
+
+def moving_surfaces(articulation: Articulation) -> tuple[int, ...]:
+    """Links that move and have a surface; others, as abstract links of a chain are, cannot be seen."""
+    size = np.bincount(articulation.labels + 1, articulation.weights, len(articulation.links) + 1)[1:]
+    return tuple(i for i in articulation.moving if size[i] > 0)
 
 
 def _joint_numbers(true: LinkJoint, predicted: LinkJoint) -> dict[str, float | None]:
@@ -175,23 +208,17 @@ def _joint_numbers(true: LinkJoint, predicted: LinkJoint) -> dict[str, float | N
 def _moved_numbers(
     one: Cloud, two: Cloud, poses: Sequence[tuple[FloatArray, FloatArray]]
 ) -> dict[str, float]:
-    distances, overlaps = [], []
-    for posed_T_true, posed_T_predicted in poses:
-        a, b = moved(one, posed_T_true), moved(two, posed_T_predicted)
-        distances.append(chamfer(a, b))
-        overlaps.append(box_giou(_bounds(a.points), _bounds(b.points)))
-    return {"articulated_cd": float(np.mean(distances)), "articulated_giou": float(np.mean(overlaps))}
+    overlaps = [
+        box_giou(_bounds(move(posed_T_true, one.points)), _bounds(move(posed_T_predicted, two.points)))
+        for posed_T_true, posed_T_predicted in poses
+    ]
+    distance = float(np.mean(chamfer_moved(one, two, poses)))
+    return {"articulated_cd": distance, "articulated_giou": float(np.mean(overlaps))}
 
 
 def _bounds(points: FloatArray) -> FloatArray:
     """Their box, grown a little, so that that of a flat part has a volume."""
     return np.stack([points.min(axis=0) - _THICK, points.max(axis=0) + _THICK])
-
-
-def _moving_surfaces(articulation: Articulation) -> tuple[int, ...]:
-    """Links that move and have a surface; others, as abstract links of a chain are, cannot be seen."""
-    size = np.bincount(articulation.labels + 1, articulation.weights, len(articulation.links) + 1)[1:]
-    return tuple(i for i in articulation.moving if size[i] > 0)
 
 
 def _moving_parents(articulation: Articulation, parts: Sequence[int]) -> list[int]:
