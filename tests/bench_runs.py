@@ -102,7 +102,8 @@ def plan(home: Path, out: str = "run", sets: Iterable[str] = (), **changes: obje
     plugin = home / "cabinets.py"
     recipe = load_recipe(home / "recipe.toml", Plugins(files=[plugin]), [*sets, 'export=[{use="mjcf"}]'])
     system = Conversions("recipe recipe", recipe, (plugin,))
-    return Plan(home / "data", home / out, **{"system": system, "pictures": False, **changes})
+    usual = {"data": home / "data", "out": home / out, "system": system, "pictures": False}
+    return Plan(**{**usual, **changes})
 
 
 def converted(home: Path) -> list[str]:

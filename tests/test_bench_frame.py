@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from simart_kit.bench.articulation import Articulation, Link, LinkJoint
 from simart_kit.bench.cases import Prediction, Truth
-from simart_kit.bench.frame import Placement, place, same_faces, unit_from_object
+from simart_kit.bench.frame import MISFIT, Placement, place, same_faces, unit_from_object
 from simart_kit.bench.metrics.parts import iou_matrix
 from simart_kit.bench.overlay import overlay
 from simart_kit.errors import BadInputError
@@ -130,6 +130,18 @@ def test_a_box_far_from_the_truths_is_noted_and_one_near_it_is_not():
         moved[1, 3] = shift
         notes = placed(CABINET.transformed(moved), CABINET).notes
         assert any("differs from the truth's by 0.12 of its size" in note for note in notes) == noted
+
+
+def test_a_prediction_that_knows_its_frame_is_checked_and_not_told_of_options():
+    moved = np.eye(4)
+    moved[1, 3] = 0.35
+    prediction = CABINET.transformed(moved)
+    result = place(Prediction(prediction), Truth("t", CABINET), None)
+    assert result.articulation is prediction
+    (note,) = result.notes
+    assert note.startswith(MISFIT)
+    assert "--up" not in note
+    assert "--up" in placed(prediction, CABINET).notes[0]
 
 
 def test_fitting_what_has_no_size_is_refused():
@@ -320,9 +332,8 @@ def test_faces_without_area_labels_or_links_without_faces_break_nothing():
 
 
 def test_no_surface_at_all_is_refused():
-    nothing = soup(np.zeros((2, 3, 3)), [0, 0], (Link("a"),), name="nothing")
     with pytest.raises(BadInputError, match="'nothing' has no surface"):
-        overlay(CABINET, nothing)
+        soup(np.zeros((2, 3, 3)), [0, 0], (Link("a"),), name="nothing")
 
 
 def test_equal_seeds_give_equal_samples_and_others_do_not():

@@ -11,7 +11,7 @@ import pytest
 from simart_kit.bench import worker
 from simart_kit.bench.formats.simart_bench import SimartBench
 from simart_kit.bench.protocols import Metric, Protocol, Scores, protocol
-from simart_kit.bench.results import Mean, summarise
+from simart_kit.bench.results import Group, Mean, summarise
 from simart_kit.bench.rows import Row, read_row
 from simart_kit.bench.run import Watcher, left_to_do, run
 from simart_kit.bench.worker import Job, Predictions
@@ -32,7 +32,7 @@ class Told(Watcher):
     def __init__(self) -> None:
         self.counts, self.names = (), []
 
-    def started(self, objects: int, done: int) -> None:
+    def started(self, objects: int, done: int, changed: tuple[str, ...]) -> None:
         self.counts = (objects, done)
 
     def finished(self, row: Row) -> None:
@@ -132,7 +132,10 @@ def test_retry_does_failures_again(tmp_path):
         (lambda home: plan(home, protocol="particulate"), "run with protocol 'simart/.*', not 'particulate/"),
         (lambda home: plan(home, sets=["seed=7"]), "run with another recipe: seed differ"),
         (lambda home: replace(plan(home), data=home / "others"), "run with data 'data', not 'others'"),
-        (lambda home: plan(home, system=Predictions("predictions p", home)), "'recipe recipe', not 'predic"),
+        (
+            lambda home: plan(home, system=Predictions("predictions p", home / "run")),
+            "'recipe recipe', not 'predic",
+        ),
     ],
     ids=["protocol", "recipe", "data", "system"],
 )
@@ -153,7 +156,7 @@ def test_a_folder_that_is_no_run_or_is_in_use_is_refused(home):
         run(plan(home, "mine/thesis.txt"))
 
     class Second(Watcher):
-        def started(self, objects: int, done: int) -> None:
+        def started(self, objects: int, done: int, changed: tuple[str, ...]) -> None:
             with pytest.raises(OutputError, match="another run is writing"):
                 run(plan(home))
 
@@ -180,6 +183,8 @@ def test_damaged_truth_is_a_failure_with_the_worst_scores(home):
     assert (row.status, row.static) == ("failed", None)
     assert "gt.json" in row.error
     assert row.scores == dict(protocol("simart").score(None, None).values)
+    (line,) = csv.DictReader((home / "run" / "results.csv").read_text().splitlines())
+    assert (line["found"], line["missed"], line["invented"]) == ("", "", "")  # of how many, nobody knows
 
 
 def test_predictions_are_scored_and_missing_ones_fail(home):
@@ -296,6 +301,7 @@ class Counted(Protocol):
 
 LID = {"outcome": "matched", "true": "lid", "iou": 1.0, "axis": 0.2}
 WIDE, NARROW = ({"outcome": "matched", "true": name, "iou": iou} for name, iou in (("x", 0.7), ("y", 0.9)))
+RIGHT, POOR = LID | {"found": True}, WIDE | {"found": False, "predicted": "w"}
 MISSED, INVENTED = {"outcome": "missed", "true": "door"}, {"outcome": "invented", "predicted": "z"}
 BODY = {"outcome": "matched", "true": "body", "true_kind": "fixed"}
 
@@ -317,13 +323,32 @@ def test_means_are_over_objects_and_micro_means_over_parts():
 
     found = summary.all
     assert (summary.protocol, found.objects, found.failed, found.static) == ("counted/3", 4, 1, 1)
-    assert found.moving_parts == 4  # lid and door, x and y
+    assert found.true_parts == 4  # lid and door, x and y
+    assert (found.found, found.missed, found.invented) == (None, None, None)
     iou, matched, axis = (found.means[key] for key in ("iou", "iou_matched", "axis"))
     assert (iou.mean, iou.n, iou.micro) == (pytest.approx(0.575), 4, None)  # (0.5 + 0.8 + 0 + 1) / 4
     assert 0.0 <= iou.lower < 0.575 < iou.upper <= 1.0
     assert (matched.mean, matched.n) == (pytest.approx(0.9), 2)  # (1 + 0.8) / 2
     assert (matched.micro, matched.parts) == (pytest.approx(2.6 / 3), 3)  # 1, 0.7 and 0.9
     assert (axis.mean, axis.n, axis.micro, axis.parts) == (pytest.approx(0.6), 2, pytest.approx(0.2), 1)
+
+
+def test_a_part_is_found_missed_or_invented():
+    # Found: the lid. Missed: the door, and x, which w covers poorly. Invented: w and z. No body counts.
+    body = BODY | {"predicted": "body", "predicted_kind": "fixed", "found": False}
+    rows = (
+        Row("a", "box", static=False, parts=(body, RIGHT, MISSED)),
+        Row("b", "lamp", static=False, parts=(POOR, INVENTED)),
+    )
+
+    summary = summarise(rows, Counted())
+
+    numbers = {name: counts(group) for name, group in (("all", summary.all), *summary.categories.items())}
+    assert numbers == {"all": (3, 1, 2, 2), "box": (2, 1, 1, 0), "lamp": (1, 0, 1, 2)}
+
+
+def counts(group: Group) -> tuple[int | None, ...]:
+    return group.true_parts, group.found, group.missed, group.invented
 
 
 def test_categories_have_means_of_their_own():
@@ -348,7 +373,16 @@ def test_the_files_say_the_same_as_the_rows(home):
     with (home / "run" / "results.csv").open(newline="") as file:
         lines = list(csv.DictReader(file))
     keys = [metric.key for metric in protocol("simart").metrics]
-    assert list(lines[0]) == ["name", "category", "status", "error", "static", *keys, "seconds"]
+    heads = ["name", "category", "status", "error", "static"]
+    assert list(lines[0]) == [*heads, "found", "missed", "invented", *keys, "seconds"]
+    right = {line["name"]: (line["found"], line["missed"], line["invented"]) for line in lines}
+    # A cabinet has two doors and a drawer.
+    assert right == {
+        "block": ("0", "0", "0"),
+        "cabinet_a": ("3", "0", "0"),
+        "cabinet_b": ("3", "0", "0"),
+        "raise": ("0", "3", "0"),
+    }
     for line, row in zip(lines, outcome.rows, strict=True):
         assert (line["name"], line["status"], line["error"]) == (row.name, row.status, row.error)
         for key in keys:

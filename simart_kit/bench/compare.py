@@ -12,14 +12,16 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import BadInputError
+from .numbers import counted, listed
 from .protocols import Metric, protocol
-from .rows import ROW_FILE, Row, Settings, object_folder, read_rows, read_settings
-from .statistics import bootstrap_interval, mean
+from .rows import ROW_FILE, Row, Settings, damaged_rows, object_folder, read_rows, read_settings
+from .statistics import bootstrap_interval, mean, sign_flip_p
 
 Verdict = Literal["better", "worse", "no clear difference", ""]
 _MUST_AGREE = ("data", "protocol", "variant")
 _MAY_DIFFER = ("placement", "simart_kit")
-_EVEN = 1e-9  # scores that differ by less are a tie
+_EVEN = 1e-4  # scores that differ by no more are a tie
+_CHANCE = 0.05  # differences that chance makes as often as this are not clear
 _SHOWN = 5  # objects listed for each metric
 
 
@@ -44,13 +46,16 @@ class MetricChange:
         mean_a: mean of A over the pairs; None without one.
         mean_b: of B.
         difference: mean of B - A.
-        interval: 95 % bootstrap interval of that mean; None for fewer than two pairs.
+        interval: bootstrap interval of that mean, nominally 95 %, too narrow for few pairs; None for fewer
+            than two.
+        p: of the paired sign-flip test, in which ties are 0: how likely a difference so large is where both
+            runs are equally good; None without a pair.
         wins: pairs where B is better; None, as the next two, for a metric of which no way is better.
         ties: pairs that are equal.
         losses: pairs where A is better.
-        verdict: how B does against A. "no clear difference" where the interval contains 0, or is None; ""
-            for a metric of which no way is better. Each is judged by itself: of 20 metrics of two equal
-            systems, one is expected to come out as different.
+        verdict: how B does against A. "no clear difference" where `p` is not below 0.05, as with fewer than
+            six objects that changed; "" without a pair and for a metric of which no way is better. Each is
+            judged by itself: of 20 metrics of two equal systems, one is expected to come out as different.
         changed: the objects that changed most, most first.
     """
 
@@ -61,6 +66,7 @@ class MetricChange:
     mean_b: float | None
     difference: float | None
     interval: tuple[float, float] | None
+    p: float | None
     wins: int | None
     ties: int | None
     losses: int | None
@@ -81,7 +87,7 @@ class Comparison:
         failed_a: of `objects`, those that failed in A; they count with the worst scores.
         failed_b: in B.
         metrics: in the order of the protocol.
-        notes: what else differs between the runs.
+        notes: what else differs between the runs, and rows that are damaged.
     """
 
     a: Settings
@@ -124,43 +130,8 @@ def compare(a: Path, b: Path) -> Comparison:
         tuple(name for name in both if rows_a[name].status == "failed"),
         tuple(name for name in both if rows_b[name].status == "failed"),
         tuple(_change(metric, both, scores_a, scores_b) for metric in metrics),
-        _notes(settings_a, settings_b),
+        (*_notes(settings_a, settings_b), *_damage("A", a), *_damage("B", b)),
     )
-
-
-def metric_rows(comparison: Comparison, *, headline: bool = False) -> list[list[str]]:
-    """Rows of text, a heading first: a metric each; those of the summary table only, if asked."""
-    rows = [["metric", "objects", "A", "B", "B - A", "95 % interval", "won/even/lost", "B is"]]
-    for change in comparison.metrics:
-        if headline and not change.metric.headline:
-            continue
-        low_high = change.interval
-        counts = (change.wins, change.ties, change.losses)
-        rows.append(
-            [
-                change.metric.title,
-                str(change.pairs),
-                _text(change.mean_a),
-                _text(change.mean_b),
-                _text(change.difference, sign=True),
-                "-" if low_high is None else " .. ".join(_text(end, sign=True) for end in low_high),
-                "-" if None in counts else "/".join(map(str, counts)),
-                change.verdict or "-",
-            ]
-        )
-    return rows
-
-
-def changed_rows(comparison: Comparison) -> list[list[str]]:
-    """Rows of text, a heading first: the objects that changed most, by the metrics of the summary table."""
-    rows = [["metric", "object", "A", "B", "B - A"]]
-    for change in comparison.metrics:
-        if change.metric.headline:
-            rows += [
-                [change.metric.title, c.name, _text(c.a), _text(c.b), _text(c.difference, sign=True)]
-                for c in change.changed
-            ]
-    return rows
 
 
 def _check_alike(a: Path, settings_a: Settings, b: Path, settings_b: Settings) -> None:
@@ -184,6 +155,13 @@ def _notes(a: Settings, b: Settings) -> tuple[str, ...]:
     if a.protocol != current:
         notes.append(f"both runs are of {a.protocol}; this version has {current}, whose metrics may differ")
     return tuple(notes)
+
+
+def _damage(which: str, run: Path) -> list[str]:
+    names = damaged_rows(run)
+    if not names:
+        return []
+    return [f"{counted(len(names), 'row')} of {which} left out as damaged: {listed(names)}; run it again"]
 
 
 def _scores(run: Path, row: Row) -> Mapping[str, float | None]:
@@ -211,8 +189,9 @@ def _change(
             changes.append(ObjectChange(name, a, b, b - a))
         unpaired += (a is None) != (b is None)
     differences = np.array([change.difference for change in changes])
-    interval = bootstrap_interval(differences)
     wins, ties, losses = _counts(metric, differences)
+    p = sign_flip_p(np.where(np.abs(differences) > _EVEN, differences, 0.0))
+    difference = mean(differences)
     moved = [change for change in changes if abs(change.difference) > _EVEN]
     return MetricChange(
         metric,
@@ -220,12 +199,13 @@ def _change(
         unpaired,
         mean(np.array([change.a for change in changes])),
         mean(np.array([change.b for change in changes])),
-        mean(differences),
-        interval,
+        difference,
+        bootstrap_interval(differences),
+        p,
         wins,
         ties,
         losses,
-        _verdict(metric, interval),
+        _verdict(metric, difference, p),
         tuple(sorted(moved, key=lambda change: -abs(change.difference))[:_SHOWN]),
     )
 
@@ -239,15 +219,9 @@ def _counts(metric: Metric, differences: FloatArray) -> tuple[int | None, int | 
     return wins, len(gain) - wins - losses, losses
 
 
-def _verdict(metric: Metric, interval: tuple[float, float] | None) -> Verdict:
-    if not metric.better:
+def _verdict(metric: Metric, difference: float | None, p: float | None) -> Verdict:
+    if not metric.better or difference is None or p is None:
         return ""
-    if interval is None or (interval[0] <= _EVEN and interval[1] >= -_EVEN):
+    if p >= _CHANCE:
         return "no clear difference"
-    return "better" if (interval[0] > 0) == (metric.better == "higher") else "worse"
-
-
-def _text(value: float | None, *, sign: bool = False) -> str:
-    if value is None:
-        return "-"
-    return f"{value:+.3f}" if sign else f"{value:.3f}"
+    return "better" if (difference > 0) == (metric.better == "higher") else "worse"

@@ -19,6 +19,8 @@ _APART = 0.1  # of the truth's longest side: boxes whose faces differ by more ar
 _SAME = 1e-4  # of the diagonal: corners nearer than this are the same
 _ROUNDING = 1e-6  # of the diagonal: centroids nearer than this are of one face, or of copies of it
 _TRIED = 8  # partners tried for a face whose nearest is not its own
+MISFIT = "the prediction's box differs from the truth's"
+"""How the note of a prediction begins that does not lie where the truth does."""
 _FACING = np.array([0.267, 0.535, 0.802])  # any direction that few faces run along
 
 
@@ -56,19 +58,24 @@ def unit_from_object(bounds: FloatArray) -> FloatArray:
     return matrix
 
 
-def place(prediction: Prediction, truth: Truth, placement: Placement) -> Prediction:
+def place(prediction: Prediction, truth: Truth, placement: Placement | None) -> Prediction:
     """The prediction turned, scaled and moved to the truth's frame; its notes tell of a fit or a misfit.
+
+    Args:
+        prediction: in a frame of its own.
+        truth: whose frame is meant.
+        placement: how the way is found; None where the prediction is there already: then it is checked only.
 
     Raises:
         BadInputError: the box of either is a point, or not finite.
     """
     articulation, notes = prediction.articulation, prediction.notes
-    if placement.up is not None:
+    target = truth.articulation.bounds
+    if placement and placement.up is not None:
         turn = np.eye(4)
         turn[:3, :3] = z_up_from(truth.up).T @ z_up_from(placement.up)
         articulation = articulation.transformed(turn)
-    target = truth.articulation.bounds
-    if placement.fit == "box":
+    if placement and placement.fit == "box":
         fit = _box_fit(articulation.bounds, target)
         articulation = articulation.transformed(fit)
         x, y, z = fit[:3, 3]
@@ -77,10 +84,8 @@ def place(prediction: Prediction, truth: Truth, placement: Placement) -> Predict
         )
     apart = float(np.abs(articulation.bounds - target).max()) / _longest_side(target, "the truth")
     if apart > _APART:
-        notes += (
-            f"the prediction's box differs from the truth's by {apart:.2g} of its size: "
-            "scores may mean little; see --up and --fit",
-        )
+        hint = "; see --up and --fit" if placement else ""
+        notes += (f"{MISFIT} by {apart:.2g} of its size: scores may mean little{hint}",)
     return replace(prediction, articulation=articulation, notes=notes)
 
 

@@ -12,12 +12,14 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..provenance import write_json
+from .counts import count_parts, tells_found
 from .protocols import Protocol
 from .rows import Row, Settings
 from .statistics import bootstrap_interval, mean
 
 RESULTS_FILE, TABLE_FILE = "results.json", "results.csv"
 SCHEMA = 1
+_COUNTS = ("found", "missed", "invented")
 # What protocols add to a metric's key for the same number without penalties.
 _MATCHED = ("_matched", "_nopunish")
 
@@ -28,7 +30,8 @@ class Mean:
 
     Attributes:
         mean: over the objects for which it is defined, each counting once; None where it is for none.
-        lower: lower end of the 95 % bootstrap interval of the mean; None for less than two objects.
+        lower: lower end of the bootstrap interval of the mean, nominally 95 %, too narrow for few objects;
+            None for less than two.
         upper: its upper end.
         n: objects for which it is defined.
         micro: mean over all their parts, each counting once; None where no part has this number.
@@ -51,14 +54,21 @@ class Group:
         objects: how many.
         failed: how many of them have no score and count with the worst.
         static: how many have nothing that moves.
-        moving_parts: true parts that move, of the objects that were scored.
+        true_parts: true parts that move, of the objects whose truth could be read.
+        found: of them, those that a predicted part covers with an IoU of at least 0.5; None, as the next two,
+            where the protocol does not tell.
+        missed: the other true ones.
+        invented: predicted parts that move and cover no true one so.
         means: by metric key, in the protocol's order.
     """
 
     objects: int
     failed: int
     static: int
-    moving_parts: int
+    true_parts: int
+    found: int | None
+    missed: int | None
+    invented: int | None
     means: Mapping[str, Mean]
 
 
@@ -80,8 +90,9 @@ class Summary:
 def summarise(rows: Sequence[Row], protocol: Protocol) -> Summary:
     """Means of a protocol's metrics. Objects that failed count with their scores, which are the worst."""
     names = sorted({row.category for row in rows} - {""})
-    groups = {name: _group([row for row in rows if row.category == name], protocol) for name in names}
-    return Summary(protocol.tag, _group(rows, protocol), groups)
+    told = tells_found(rows)
+    groups = {name: _group([row for row in rows if row.category == name], protocol, told) for name in names}
+    return Summary(protocol.tag, _group(rows, protocol, told), groups)
 
 
 def matched_twin(key: str, keys: Collection[str]) -> str | None:
@@ -111,19 +122,19 @@ def write_results(run: Path, settings: Settings, rows: Sequence[Row], protocol: 
     return summary
 
 
-def _group(rows: Sequence[Row], protocol: Protocol) -> Group:
+def _group(rows: Sequence[Row], protocol: Protocol, found_told: bool) -> Group:
     keys = [metric.key for metric in protocol.metrics]
+    parts = count_parts(rows, found_told=found_told)
     return Group(
         objects=len(rows),
         failed=sum(row.status == "failed" for row in rows),
         static=sum(row.static is True for row in rows),
-        moving_parts=sum(_moved_in_truth(part) for row in rows for part in row.parts),
+        true_parts=parts.true_parts,
+        found=parts.found,
+        missed=parts.missed,
+        invented=parts.invented,
         means={key: _mean(rows, key, _part_key(key, keys)) for key in keys},
     )
-
-
-def _moved_in_truth(part: Mapping[str, Any]) -> bool:
-    return bool(part.get("true")) and part.get("true_kind") != "fixed"
 
 
 def _part_key(key: str, keys: Collection[str]) -> str | None:
@@ -147,11 +158,16 @@ def _numbers(values: Iterable[Any]) -> FloatArray:
 def _write_table(run: Path, rows: Sequence[Row], protocol: Protocol) -> None:
     keys = [metric.key for metric in protocol.metrics]
     draft = run / f".{TABLE_FILE}"
+    told = tells_found(rows)
     with draft.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["name", "category", "status", "error", "static", *keys, "seconds"])
+        writer.writerow(["name", "category", "status", "error", "static", *_COUNTS, *keys, "seconds"])
         for row in rows:
             scores = [row.scores.get(key) for key in keys]
             static = "" if row.static is None else str(row.static).lower()
-            writer.writerow([row.name, row.category, row.status, row.error, static, *scores, row.seconds])
+            known = told and row.static is not None  # of a truth that cannot be read, nothing is
+            parts = asdict(count_parts([row], found_told=known))
+            counts = [parts[key] for key in _COUNTS]
+            head = [row.name, row.category, row.status, row.error, static]
+            writer.writerow([*head, *counts, *scores, row.seconds])
     draft.replace(run / TABLE_FILE)

@@ -12,6 +12,7 @@ from ..errors import BadInputError
 from ..provenance import write_json
 
 SETTINGS_FILE, ROW_FILE, OBJECTS = "bench.json", "row.json", "objects"
+OLD_ROW_FILE = "old_row.json"
 SCHEMA = 1
 
 
@@ -54,6 +55,9 @@ class Row:
         seconds: wall time that conversion and scoring took.
         pictures: file names in the object's folder by what they show: "input", "truth", "prediction",
             "truth_open", "prediction_open".
+        truth_sha256: over the files of the truth, see `fingerprint`.
+        system_sha256: over the files of the prediction, or over the plugin files that were given for a
+            conversion; "" where there are none.
     """
 
     name: str
@@ -66,6 +70,8 @@ class Row:
     notes: tuple[str, ...] = ()
     seconds: float = 0.0
     pictures: Mapping[str, str] = field(default_factory=dict)
+    truth_sha256: str = ""
+    system_sha256: str = ""
 
 
 def object_folder(run: Path, name: str) -> Path:
@@ -86,9 +92,17 @@ def read_row(run: Path, name: str) -> Row | None:
     """The row of an object; None when it is not done, or its file is damaged."""
     try:
         table = json.loads((object_folder(run, name) / ROW_FILE).read_text(encoding="utf-8"))
-        return Row(**{**table, "parts": tuple(table["parts"]), "notes": tuple(table["notes"])})
+        # The folder names the object: a row that was copied elsewhere is that of another.
+        values = {"name": name, "parts": tuple(table["parts"]), "notes": tuple(table["notes"])}
+        return Row(**{**table, **values})
     except (OSError, ValueError, TypeError, KeyError):
         return None
+
+
+def set_aside(run: Path, name: str) -> None:
+    """Let the row of an object count no more, and keep its file under another name."""
+    folder = object_folder(run, name)
+    (folder / ROW_FILE).replace(folder / OLD_ROW_FILE)
 
 
 def read_settings(run: Path) -> Settings:
@@ -111,5 +125,14 @@ def write_settings(run: Path, settings: Settings) -> None:
 
 def read_rows(run: Path) -> tuple[Row, ...]:
     """All rows that are done, by name."""
-    found = (read_row(run, path.parent.name) for path in sorted((run / OBJECTS).glob(f"*/{ROW_FILE}")))
+    found = (read_row(run, name) for name in _names(run))
     return tuple(row for row in found if row is not None)
+
+
+def damaged_rows(run: Path) -> tuple[str, ...]:
+    """Names of the objects that have a row which cannot be read."""
+    return tuple(name for name in _names(run) if read_row(run, name) is None)
+
+
+def _names(run: Path) -> list[str]:
+    return [path.parent.name for path in sorted((run / OBJECTS).glob(f"*/{ROW_FILE}"))]

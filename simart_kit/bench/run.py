@@ -15,9 +15,13 @@ from ..errors import BadInputError, OutputError
 from ..output import claimed
 from ..toml_text import recipe_text
 from .formats import DEFAULT_VARIANT, TruthFormat, find_truths
+from .frame import MISFIT
+from .numbers import counted
 from .pool import run_each
+from .preflight import check_variant
 from .protocols import Protocol, protocol
 from .results import Summary, write_results
+from .resuming import Standing, standing
 from .rows import (
     ROW_FILE,
     SETTINGS_FILE,
@@ -30,7 +34,7 @@ from .rows import (
     write_row,
     write_settings,
 )
-from .worker import LOG_FILE, RECIPE_FILE, Job, System, work
+from .worker import LOG_FILE, RECIPE_FILE, Job, System, begun, work
 
 Truths: TypeAlias = dict[str, tuple[TruthFormat, Path]]
 
@@ -67,8 +71,8 @@ class Plan:
 class Watcher:
     """Is told how a run goes on; this one does nothing with it."""
 
-    def started(self, objects: int, done: int) -> None:
-        """Of so many objects, so many had been done before."""
+    def started(self, objects: int, done: int, changed: tuple[str, ...]) -> None:
+        """Of so many objects, so many were done before; some are done again as their files have changed."""
 
     def finished(self, row: Row) -> None:
         """An object is done."""
@@ -82,11 +86,15 @@ class Outcome:
         summary: over all rows in the folder.
         rows: by name.
         page: the page to look at.
+        before: names of the objects that had been done before.
+        warnings: what makes the results worth less than they look.
     """
 
     summary: Summary
     rows: tuple[Row, ...]
     page: Path
+    before: frozenset[str] = frozenset()
+    warnings: tuple[str, ...] = ()
 
 
 def run(plan: Plan, watcher: Watcher | None = None) -> Outcome:
@@ -95,23 +103,45 @@ def run(plan: Plan, watcher: Watcher | None = None) -> Outcome:
     Scripts that call this need the `if __name__ == "__main__":` of multiprocessing.
 
     Raises:
-        BadInputError: there are no such objects, no such protocol, or the folder is of another run.
+        BadInputError: there are no such objects, no such protocol, no object has the variant or a
+            prediction, or the folder is of another run.
         OutputError: the folder cannot be written, or another run is writing to it.
     """
     watcher = watcher or Watcher()
     scorer = protocol(plan.protocol)
-    truths = _selected(find_truths(plan.data), plan.only)
+    truths = find_truths(plan.data)
+    chosen = _selected(truths, plan.only)
+    check_variant(chosen, plan.variant)
+    plan.system.check(tuple(chosen))
     settings = _settings(plan, scorer)
     with _opened(plan, settings):
-        left = {name: found for name, found in truths.items() if not _is_done(plan, name)}
-        watcher.started(len(truths), len(truths) - len(left))
+        kept = standing(plan.out, plan.system, truths, chosen)
+        left = {name: found for name, found in chosen.items() if not _is_done(plan, kept, name)}
+        watcher.started(len(chosen), len(chosen) - len(left), kept.changed)
         for row in _done(plan, left, scorer):
             watcher.finished(row)
-        rows = read_rows(plan.out)
-        summary = write_results(plan.out, settings, rows, scorer)
-        from .page import write_page
+        return _outcome(plan, settings, scorer, frozenset(kept.rows.keys() - left.keys()), kept.warnings)
 
-        return Outcome(summary, rows, write_page(plan.out))
+
+def _outcome(
+    plan: Plan, settings: Settings, scorer: Protocol, before: frozenset[str], warnings: tuple[str, ...]
+) -> Outcome:
+    """Write the results of all rows in the folder."""
+    from .page import write_page
+
+    rows = read_rows(plan.out)
+    summary = write_results(plan.out, settings, rows, scorer)
+    return Outcome(summary, rows, write_page(plan.out), before, (*warnings, *_misfits(rows)))
+
+
+def _misfits(rows: Sequence[Row]) -> list[str]:
+    """A warning where predictions do not lie where the truth does."""
+    notes = [note for row in rows for note in row.notes if note.startswith(MISFIT)]
+    if not notes:
+        return []
+    do = "does" if len(notes) == 1 else "do"
+    where = "see --up and --fit" if any("--up" in note for note in notes) else "see the notes on the page"
+    return [f"{counted(len(notes), 'prediction')} {do} not fit the truth's box: {where}"]
 
 
 def left_to_do(plan: Plan) -> int:
@@ -176,8 +206,8 @@ def _check_same(out: Path, before: Settings, now: Settings) -> None:
         raise BadInputError(f"{out} is a run with {'; '.join(said)}: choose another folder with --out")
 
 
-def _is_done(plan: Plan, name: str) -> bool:
-    row = read_row(plan.out, name)
+def _is_done(plan: Plan, kept: Standing, name: str) -> bool:
+    row = kept.rows.get(name)
     return row is not None and not (plan.retry and row.status == "failed")
 
 
@@ -193,7 +223,7 @@ def _done(plan: Plan, truths: Truths, scorer: Protocol) -> Iterator[Row]:
                 continue
             if row is None:
                 scores = scorer.score(None, None)
-                row = Row(job.name, status="failed", error=job.died, scores=dict(scores.values))
+                row = replace(begun(job), status="failed", error=job.died, scores=dict(scores.values))
                 write_row(plan.out, row)
             _drop_empty(job)
             yield row

@@ -6,16 +6,19 @@ import shutil
 import time
 import traceback
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
-from ..errors import SimartKitError
+from ..errors import BadInputError, SimartKitError
 from ..recipe import Recipe
 from .cases import Prediction, Truth
+from .fingerprint import fingerprint
 from .formats import DEFAULT_VARIANT, TruthFormat, find_prediction
 from .frame import Placement, place
+from .preflight import check_predictions
 from .protocols import Protocol, Scores, protocol
 from .rows import Row, object_folder, read_row, write_row
 
@@ -45,6 +48,14 @@ class System(ABC):
     @abstractmethod
     def answer(self, job: Job, truth: Truth) -> Answer:
         """What it says about an object; raises SimartKitError where it has no answer."""
+
+    @abstractmethod
+    def check(self, names: Sequence[str]) -> None:
+        """Raises BadInputError where it has no answer for any of the objects that are called so."""
+
+    @abstractmethod
+    def fingerprint(self, name: str) -> str:
+        """One number for what is in the files that its answer for an object comes from; "" without files."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,6 +140,13 @@ class Conversions(System):
         )
         return Answer(truth, OutputFolder().read(out, truth), result.report.warnings)
 
+    def check(self, names: Sequence[str]) -> None:
+        """Nothing: what a recipe makes of an object is not known before."""
+
+    def fingerprint(self, name: str) -> str:
+        """Of the plugin files; the recipe is in the settings of the run."""
+        return fingerprint(*self.plugins)
+
 
 @dataclass(frozen=True)
 class Predictions(System):
@@ -146,9 +164,25 @@ class Predictions(System):
     recipe: None = None
 
     def answer(self, job: Job, truth: Truth) -> Answer:
-        """Read what is there for the object."""
+        """Read what is there for the object; placed, unless its format tells the way to the truth's frame."""
         reader, path = find_prediction(self.folder, job.name)
-        return Answer(truth, place(reader.read(path, truth), truth, self.placement))
+        found = reader.read(path, truth)
+        if not reader.knows_frame:
+            return Answer(truth, place(found, truth, self.placement))
+        unused = self.placement != _AS_IS
+        notes = (f"--up and --fit not needed: {reader.name} tells its frame",) if unused else ()
+        return Answer(truth, place(found, truth, None), notes)
+
+    def check(self, names: Sequence[str]) -> None:
+        """There must be a prediction for one of the objects at least."""
+        check_predictions(self.folder, names)
+
+    def fingerprint(self, name: str) -> str:
+        """Of all that is in the object's folder, or of its file with what belongs to it."""
+        paths = [self.folder / name]
+        with suppress(BadInputError):  # there is none, or too many: the row will say so
+            paths.append(find_prediction(self.folder, name)[1])
+        return fingerprint(*(path for path in paths if path.exists()))
 
 
 class _FailedError(Exception):
@@ -166,9 +200,10 @@ class _FailedError(Exception):
 def work(job: Job) -> None:
     """Do an object. Whatever goes wrong with it is written in its row."""
     _tidy(job)
+    row = begun(job)
     start = time.perf_counter()
     scorer = protocol(job.protocol)
-    truth, prediction, row = None, None, Row(job.name)
+    truth, prediction = None, None
     try:
         truth = _attempt(job, "reading the truth", job.reader.read, job.path, job.variant)
         row = replace(row, category=truth.category, static=truth.articulation.is_static, notes=truth.notes)
@@ -183,7 +218,14 @@ def work(job: Job) -> None:
         scores = _worst(job, scorer, truth)
     seconds = round(time.perf_counter() - start, 4)
     row = replace(row, scores=dict(scores.values), parts=scores.parts, seconds=seconds)
+    row = replace(row, notes=(*row.notes, *scores.notes))
     _write(job, row, truth, prediction)
+
+
+def begun(job: Job) -> Row:
+    """What the row of an object begins with: of which files it will be."""
+    files = fingerprint(job.path), job.system.fingerprint(job.name)
+    return Row(job.name, truth_sha256=files[0], system_sha256=files[1])
 
 
 def one_line(error: BaseException) -> str:

@@ -22,9 +22,10 @@ def import_objects(
     code is 1 if no object could be written.
     """
     from ...bench.importing import import_cases
+    from ...bench.numbers import counted
 
     imported = import_cases(source, out, _tell)
-    print(f"{len(imported.written)} object(s) written to {out}, {len(imported.skipped)} skipped")
+    print(f"{counted(len(imported.written), 'object')} written to {out}, {len(imported.skipped)} skipped")
     if not imported.written:
         raise typer.Exit(1)
 

@@ -16,7 +16,8 @@ ProtocolName = Annotated[
     str, typer.Option(metavar="NAME", help="How to score: simart, particulate, s2o or urdf-anything.")
 ]
 Variant = Annotated[
-    str, typer.Option(metavar="NAME", help="Which mesh of each object, where there are several.")
+    str,
+    typer.Option(metavar="NAME", help="A mesh NAME.glb beside input.glb of SIMART-Bench objects."),
 ]
 Out = Annotated[
     Path, typer.Option("--out", "-o", metavar="DIR", help="Folder of the run; one begun is gone on with.")

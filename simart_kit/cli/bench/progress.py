@@ -21,15 +21,16 @@ class Lines(Watcher):
     def __init__(self) -> None:
         self._objects = self._done = 0
 
-    def started(self, objects: int, done: int) -> None:
+    def started(self, objects: int, done: int, changed: tuple[str, ...]) -> None:
         """Tell how much was done before."""
         self._objects, self._done = objects, done
-        print(_begun(objects, done), file=sys.stderr, flush=True)
+        print(_begun(objects, done, changed), file=sys.stderr, flush=True)
 
     def finished(self, row: Row) -> None:
         """Print its line."""
         self._done += 1
-        print(f"[{self._done}/{self._objects}] {_line(row)}", file=sys.stderr, flush=True)
+        done = str(self._done).rjust(len(str(self._objects)))
+        print(f"[{done}/{self._objects}] {_line(row)}", file=sys.stderr, flush=True)
 
 
 class Bar(Watcher):
@@ -44,9 +45,9 @@ class Bar(Watcher):
         self._task: TaskID | None = None
         self._seconds: list[float] = []
 
-    def started(self, objects: int, done: int) -> None:
+    def started(self, objects: int, done: int, changed: tuple[str, ...]) -> None:
         """Show the bar, as far as it was done before."""
-        self._shown.console.print(_begun(objects, done), highlight=False, markup=False)
+        self._shown.console.print(_begun(objects, done, changed), highlight=False, markup=False)
         self._task = self._shown.add_task("", total=objects, completed=done)
 
     def finished(self, row: Row) -> None:
@@ -82,8 +83,12 @@ def progress(quiet: bool = False) -> Iterator[Watcher]:
         yield Bar(shown)
 
 
-def _begun(objects: int, done: int) -> str:
-    return f"{objects} object(s), {done} done before" if done else f"{objects} object(s)"
+def _begun(objects: int, done: int, changed: tuple[str, ...]) -> str:
+    from ...bench.numbers import counted, listed
+
+    before = f", {done} done before" if done else ""
+    again = f", {len(changed)} changed since and done again: {listed(changed)}" if changed else ""
+    return f"{counted(objects, 'object')}{before}{again}"
 
 
 def _line(row: Row) -> str:

@@ -73,4 +73,4 @@ def run(
             retry=retry,
         )
         outcome = perform(plan, quiet)
-    tell(plan, outcome, json, quiet)
+    tell(plan, outcome, json, quiet, verbose)

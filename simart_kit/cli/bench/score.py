@@ -27,11 +27,18 @@ from .options import (
 
 Up = Annotated[
     Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None,
-    typer.Option(metavar="+x|-x|..|-z", help="Up axis of the predictions, where it is not the truth's."),
+    typer.Option(
+        metavar="+x|-x|..|-z",
+        help="Up axis of predictions, where it is not the truth's: for URDF and Articulate-AnyMesh "
+        "predictions, which do not tell their frame.",
+    ),
 ]
 Fit = Annotated[
     Literal["none", "box"],
-    typer.Option(metavar="none|box", help="box: scale and move predictions into the truth's box."),
+    typer.Option(
+        metavar="none|box",
+        help="box: scale and move such predictions into the truth's box.",
+    ),
 ]
 
 
@@ -65,6 +72,8 @@ def score(
         from ...bench.worker import Predictions
         from .perform import perform, tell
 
+        if predictions.is_file():
+            raise BadInputError(f"{predictions} is a file: give its folder")
         if not predictions.is_dir():
             raise BadInputError(f"no such folder: {predictions}")
         folder = predictions.resolve()
@@ -81,4 +90,4 @@ def score(
             retry=retry,
         )
         outcome = perform(plan, quiet)
-    tell(plan, outcome, json, quiet)
+    tell(plan, outcome, json, quiet, verbose)
