@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import inspect
 import json
+import re
 import types
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, Union, get_args, get_origin
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 
 _WORDS = {float: "number", int: "integer", str: "text", bool: "true or false", type(None): "none"}
 _BOUNDS = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
+_HUGE = 1e9  # bounds as large only keep computers from overflowing
+# A span of code; else what would be emphasis or start an HTML tag.
+_MARKUP = re.compile(r"(?P<code>`[^`]*`)|[*]|(?<!\w)_(?=\w)|<(?=[A-Za-z/!?])")
 
 
 @dataclass(frozen=True)
@@ -71,11 +75,20 @@ def nested_models(model: type[BaseModel]) -> tuple[type[BaseModel], ...]:
 
 def markdown_table(rows: Iterable[FieldRow]) -> str:
     """A Markdown table, one row a field."""
-    lines = ["| Key | Type | Default | Meaning |", "|---|---|---|---|"]
-    for row in rows:
-        cells = (f"`{row.name}`", row.type, row.default, row.description)
-        lines.append("| " + " | ".join(cell.replace("|", "\\|").replace("*", "\\*") for cell in cells) + " |")
-    return "\n".join(lines) + "\n"
+    cells = ((f"`{row.name}`", row.type, row.default, row.description) for row in rows)
+    return table(("Key", "Type", "Default", "Meaning"), cells)
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A Markdown table of any texts; what stands in backticks is code."""
+    ruler = "|" + "---|" * len(head)
+    return "\n".join([_line(head), ruler, *map(_line, rows)]) + "\n"
+
+
+def cell(text: str) -> str:
+    """A text as a cell of a Markdown table shows it: bars, stars and tags are characters like others."""
+    escaped = _MARKUP.sub(lambda found: found["code"] or f"\\{found[0]}", " ".join(text.split()))
+    return escaped.replace("|", "\\|")  # ends the cell in code, too
 
 
 def stage_options(plugins: Plugins, kind: str) -> str:
@@ -100,17 +113,15 @@ def type_text(annotation: Any, info: FieldInfo | None = None) -> str:
     if get_origin(annotation) in (Union, types.UnionType) and type(None) in arguments:
         others = [type_text(argument, info) for argument in arguments if argument is not type(None)]
         return " or ".join([*others, "none"])
-    bounds = [
-        f"{sign} {getattr(bound, key):g}"
-        for bound in (info.metadata if info else ())
-        for key, sign in _BOUNDS.items()
-        if hasattr(bound, key)
-    ]
+    bounds = _bounds(info.metadata if info else ())
     return " ".join(filter(None, (_type_text(annotation), " and ".join(bounds))))
 
 
 def _type_text(annotation: Any) -> str:
     origin, arguments = get_origin(annotation), get_args(annotation)
+    if origin is Annotated:
+        bounds = _bounds(annotation.__metadata__)
+        return " ".join(filter(None, (_type_text(arguments[0]), " and ".join(bounds))))
     if origin is Literal:
         return " or ".join(json.dumps(value) for value in arguments)
     if origin in (Union, types.UnionType):
@@ -122,15 +133,34 @@ def _type_text(annotation: Any) -> str:
     if origin is dict:
         return "table"
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return annotation.__name__.removesuffix("Table")
+        return annotation.__name__.removesuffix("Table").removesuffix("Row")
     return _WORDS.get(annotation, getattr(annotation, "__name__", str(annotation)))
 
 
+def _bounds(metadata: Iterable[Any]) -> list[str]:
+    """Such as `>= 0`, without bounds that are there only for the computer's sake."""
+    told = []
+    for bound in metadata:
+        if isinstance(bound, FieldInfo):
+            told += _bounds(bound.metadata)
+        values = {sign: getattr(bound, key) for key, sign in _BOUNDS.items() if hasattr(bound, key)}
+        told += [f"{sign} {value:g}" for sign, value in values.items() if abs(value) < _HUGE]
+    return told
+
+
 def _tuple_text(items: list[str]) -> str:
-    """Such as `3 numbers`, `4 x 4 numbers` or `[text, number]`."""
+    """Such as `3 numbers`, `3 numbers > 0`, `4 x 4 numbers` or `[text, number]`."""
+    first = items[0]
     if len(set(items)) > 1:
         return f"[{', '.join(items)}]"
-    return f"{len(items)} x {items[0]}" if items[0][0].isdigit() else f"{len(items)} {items[0]}s"
+    if first[0].isdigit():
+        return f"{len(items)} x {first}"
+    word, _, bounds = first.partition(" ")
+    return f"{len(items)} {word}s {bounds}".rstrip()
+
+
+def _line(texts: Sequence[str]) -> str:
+    return f"| {' | '.join(map(cell, texts))} |"
 
 
 def _default_text(info: FieldInfo) -> str:

@@ -53,6 +53,15 @@ def test_a_right_prediction_looks_like_the_truth(tmp_path: Path) -> None:
         assert same[0] == same[1]
 
 
+def test_a_predicted_part_has_the_colour_of_its_true_part_whatever_its_order(tmp_path: Path) -> None:
+    right = cabinet()
+    order = [0, 3, 1, 2]  # of the links, told anew
+    links = tuple(right.links[i] for i in order)
+    other = replace(right, links=links, labels=np.argsort(order)[right.labels])
+    write_pictures(tmp_path, truth(right), prediction(other), None)
+    assert (tmp_path / "truth.png").read_bytes() == (tmp_path / "prediction.png").read_bytes()
+
+
 def test_moving_parts_are_coloured_each_in_its_own_and_the_body_is_grey(tmp_path: Path) -> None:
     write_pictures(tmp_path, truth(cabinet()), None, None)
     red, green, blue = np.moveaxis(pixels(tmp_path / "truth.png"), -1, 0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -49,21 +50,26 @@ class Figure:
         return np.tile(_paint(BODY), (len(self.paint), 1))
 
     @classmethod
-    def of(cls, articulation: Articulation, like: Figure | None = None) -> Figure:
+    def of(
+        cls, rigid: Articulation, numbers: Mapping[int, int] | None = None, like: Figure | None = None
+    ) -> Figure:
         """Prepare an object for drawing.
 
         Args:
-            articulation: z up; of a cloud, at most 8000 points are taken.
+            rigid: z up, links fixed to each other taken together; of a cloud, at most 8000 points are taken.
+            numbers: of the colour of each link that moves; the default is their order.
             like: a figure that may have the same surface; then its normals are taken over.
         """
-        rigid = _as_surface(articulation.rigid())
+        numbers = numbers or {link: number for number, link in enumerate(rigid.moving, start=1)}
+        rigid = _as_surface(rigid)
         surface = smooth_surface(rigid, None if like is None else like.surface)
         closed, vertex_link = _taken_apart(surface, rigid.labels, len(rigid.links))
         travels = any(way(link.joint)[1] != 0.0 for link in rigid.links)
         opened = _posed(closed, vertex_link, states(rigid)[-1]) if travels else closed
         # The last rows are found by label -1.
         moving = np.array([link.joint.moves for link in rigid.links] + [False])
-        colors = np.array([*_link_paint(rigid), _paint(NO_PART)])
+        paints = [_paint(part_color(numbers.get(link, 0))) for link in range(len(rigid.links))]
+        colors = np.array([*paints, _paint(NO_PART)])
         return cls(surface, closed, opened, travels, moving[rigid.labels], colors[rigid.labels])
 
 
@@ -74,12 +80,6 @@ def smooth_surface(articulation: Articulation, known: Mesh | None) -> Mesh:
         if np.allclose(known.triangles, articulation.triangles, rtol=0, atol=1e-5 * size):
             return known
     return with_normals(Mesh(articulation.vertices, articulation.faces))
-
-
-def _link_paint(articulation: Articulation) -> list[list[float]]:
-    """Colour of each link: those that move by their order, the others grey."""
-    order = {link: number for number, link in enumerate(articulation.moving, start=1)}
-    return [_paint(part_color(order.get(index, 0))) for index in range(len(articulation.links))]
 
 
 def _paint(color: Color) -> list[float]:

@@ -17,8 +17,11 @@ from ..mesh import Mesh, z_up_from
 from ..normals import with_normals
 from ..rays import Rays
 from ..render import render
+from .articulation import Articulation
 from .cases import Prediction, Truth
 from .figure import Figure
+from .metrics.parts import iou_matrix, match
+from .overlay import overlay
 
 PICTURES = ("input", "truth", "prediction", "truth_open", "prediction_open")
 """What is shown, in the order of the page."""
@@ -29,6 +32,7 @@ _ELEVATION = np.deg2rad(26.0)
 _AZIMUTHS = np.deg2rad([-33.0, 33.0, 147.0, -147.0])
 _BETTER = 1.15  # a later view has to show this much more than an earlier one
 _SKETCH = 64  # [pixels]
+_COMPARED, _COMPARED_LEAST = 4000, 64  # points of a surface and of a part, to tell which parts are alike
 _FAR = 30.0  # diagonals of the true object; what is further from it is in no picture
 
 
@@ -37,9 +41,10 @@ def write_pictures(
 ) -> dict[str, str]:
     """Write PNG pictures of an object.
 
-    Moving parts have colours by their order, the body is grey, faces of no part are pale. Without "open" the
-    object is at rest, as it was given; "open" is with all joints at the end of their way. Points of a cloud
-    are drawn as small octahedra. Parts that a prediction sends far away are outside the picture.
+    Moving parts have colours, a predicted one that of the true part that it is most like; the body is grey,
+    faces of no part are pale. Without "open" the object is at rest, as it was given; "open" is with all
+    joints at the end of their way. Points of a cloud are drawn as small octahedra. Parts that a prediction
+    sends far away are outside the picture.
 
     Args:
         folder: exists; files of the same name are replaced.
@@ -53,10 +58,11 @@ def write_pictures(
     """
     z_up = np.eye(4)
     z_up[:3, :3] = z_up_from(truth.up)
-    figures = {"truth": Figure.of(truth.articulation.transformed(z_up))}
+    true = truth.articulation.transformed(z_up).rigid()
+    figures = {"truth": Figure.of(true)}
     if prediction is not None:
-        articulation = prediction.articulation.transformed(z_up)
-        figures["prediction"] = Figure.of(articulation, like=figures["truth"])
+        predicted = prediction.articulation.transformed(z_up).rigid()
+        figures["prediction"] = Figure.of(predicted, _numbers(true, predicted), figures["truth"])
     view = _View(figures["truth"])
     files = {"input": _write(folder, "input", view.plain(look))}
     for name, figure in figures.items():
@@ -65,6 +71,17 @@ def write_pictures(
         files[name] = _write(folder, name, closed)
         files[f"{name}_open"] = _write(folder, f"{name}_open", opened)
     return {key: files[key] for key in PICTURES if key in files}
+
+
+def _numbers(true: Articulation, predicted: Articulation) -> dict[int, int]:
+    """Number of the colour of each predicted link that moves: that of its true part, else one of its own."""
+    laid = overlay(true, predicted, points=_COMPARED, least=_COMPARED_LEAST)
+    shape = len(true.links), len(predicted.links)
+    iou = iou_matrix(laid.true_labels, laid.predicted_labels, laid.weights, shape)
+    pairs = match(iou[np.ix_(true.moving, predicted.moving)])
+    numbers = {predicted.moving[b]: a + 1 for a, b in pairs}
+    others = [link for link in predicted.moving if link not in numbers]
+    return numbers | {link: number for number, link in enumerate(others, start=len(true.moving) + 1)}
 
 
 class _View:

@@ -10,12 +10,13 @@ from importlib.resources import files
 from pathlib import Path
 from string import Template
 
+from ..describe import untwinned
 from ..protocols import Protocol, protocol
 from ..results import Summary, summarise
 from ..rows import Row, Settings, read_rows, read_settings
 from .markup import NOTHING, Markup, tag, text
 from .objects import objects_table, ranked
-from .overview import categories_table, explanations, first_columns, heading, summary_table
+from .overview import categories_table, explanations, heading, summary_table
 
 PAGE_FILE = "report.html"
 
@@ -44,7 +45,7 @@ def write_page(run: Path) -> Path:
 def page(run: Path, settings: Settings, rows: Sequence[Row], scorer: Protocol, summary: Summary) -> str:
     """The page as HTML; pictures are read from the run's folder and put into it."""
     headlines = [metric for metric in scorer.metrics if metric.headline]
-    others = [metric for metric in first_columns(scorer) if not metric.headline]
+    others = [metric for metric in untwinned(scorer.metrics) if not metric.headline]
     categories = NOTHING
     if summary.categories:
         categories = _fold("By category", categories_table(summary, headlines))

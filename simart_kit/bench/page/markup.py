@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import html
-import math
 from collections.abc import Iterable, Mapping
 from typing import Any, NewType
+
+from ..numbers import number
 
 Markup = NewType("Markup", str)
 """A piece of HTML that is safe to put in the page."""
@@ -22,9 +23,15 @@ def text(value: object) -> Markup:
     return Markup(html.escape(str(value)))
 
 
-def breakable(value: str) -> Markup:
-    """A name, escaped; its lines may break after underscores and slashes."""
-    return Markup(text(value).replace("_", "_<wbr>").replace("/", "/<wbr>"))
+def breakable(name: str) -> Markup:
+    """A name, escaped; its lines may break after underscores."""
+    return Markup(text(name).replace("_", "_<wbr>"))
+
+
+def prose(words: str) -> Markup:
+    """A sentence, escaped; what stands in backticks is code."""
+    pieces = words.split("`")
+    return joined(tag("code", text(piece)) if i % 2 else text(piece) for i, piece in enumerate(pieces))
 
 
 def tag(name: str, *content: Markup, attributes: Attributes = _NONE) -> Markup:
@@ -43,15 +50,6 @@ def lines(pieces: Iterable[Markup]) -> Markup:
     return Markup("\n".join(pieces))
 
 
-def number(value: float) -> str:
-    """A number to three places, or to two digits where that would show 0 for something else."""
-    if not math.isfinite(value):
-        return str(value)
-    if value != 0 and abs(value) < 0.0005:
-        return f"{value:.1e}"
-    return f"{value:.3f}" if abs(value) < 1000 else f"{value:.4g}"
-
-
 def undefined(of: str) -> Markup:
     """What stands for a number that there is not."""
     return tag("span", text("\N{EN DASH}"), attributes={"class": "none", "title": f"not defined for {of}"})
@@ -67,7 +65,7 @@ def value_text(value: Any) -> Markup:
         return text(number(value))
     if isinstance(value, list | tuple):
         return text(", ".join(number(v) if isinstance(v, float) else str(v) for v in value))
-    return text(value)
+    return breakable(str(value))
 
 
 def _attribute(key: str, value: str | bool) -> str:

@@ -4,26 +4,16 @@ from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
+from ..describe import explained
+from ..numbers import titled
 from ..pictures import PICTURES
 from ..protocols import Metric, Protocol
 from ..rows import Row, object_folder
-from .markup import (
-    NOTHING,
-    Attributes,
-    Markup,
-    breakable,
-    joined,
-    lines,
-    number,
-    tag,
-    text,
-    undefined,
-    value_text,
-)
-from .overview import MATCHED, explained, first_columns
+from .details import details_of, score_text
+from .markup import NOTHING, Attributes, Markup, breakable, joined, lines, tag, text
 
 CAPTIONS = {
     "input": "Input",
@@ -59,7 +49,7 @@ def _head(headlines: Sequence[Metric]) -> Markup:
         _sortable("name", "Object", "name of the object"),
         _sortable("category", "Category", "category of the object"),
         _sortable("status", "Status", "whether there is a prediction to score"),
-        *(_sortable(m.key, m.title, explained(m), m.better or "lower") for m in headlines),
+        *(_sortable(m.key, titled(m), explained(m), m.better or "lower") for m in headlines),
         _sortable("seconds", "Seconds", "wall time of conversion and scoring [s]", "lower"),
         *(tag("th", text(CAPTIONS[key]), attributes={"scope": "col", "class": "view"}) for key in PICTURES),
     ]
@@ -85,7 +75,7 @@ def _object(run: Path, row: Row, protocol: Protocol, headlines: Sequence[Metric]
         _cell("category", row.category, breakable(row.category)),
         _cell("status", _status(row), _status_mark(row)),
         *(_score_cell(row, metric) for metric in headlines),
-        _cell("seconds", repr(row.seconds), text(f"{row.seconds:.1f}"), "number"),
+        _cell("seconds", repr(row.seconds), text(f"{row.seconds:.1f}"), "Seconds"),
         *(_picture_cell(run, row, key) for key in PICTURES),
     ]
     attributes: Attributes = {
@@ -94,13 +84,15 @@ def _object(run: Path, row: Row, protocol: Protocol, headlines: Sequence[Metric]
         "data-static": bool(row.static),
         "class": row.status,
     }
-    inside = tag("td", _details(row, protocol), attributes={"colspan": str(len(cells))})
+    inside = tag("td", details_of(row, protocol), attributes={"colspan": str(len(cells))})
     more = tag("tr", inside, attributes={"class": "details", "id": details, "hidden": True})
     return tag("tbody", tag("tr", *cells, attributes={"class": "object"}), more, attributes=attributes)
 
 
-def _cell(key: str, value: str, shown: Markup, kind: str = "word") -> Markup:
-    return tag("td", shown, attributes={"data-key": key, "data-value": value, "class": kind})
+def _cell(key: str, value: str | bool, shown: Markup, label: str = "") -> Markup:
+    """A cell with the value to sort by; one of a number has a label, for where headings are out of sight."""
+    kind: Attributes = {"class": "number", "data-label": label} if label else {"class": "word"}
+    return tag("td", shown, attributes={"data-key": key, "data-value": value, **kind})
 
 
 def _name_cell(row: Row, details: str) -> Markup:
@@ -128,16 +120,15 @@ def _status_mark(row: Row) -> Markup:
 
 
 def _score_cell(row: Row, metric: Metric) -> Markup:
-    """A cell with the value to sort by, which an undefined number has not."""
+    """An undefined number has no value to sort by."""
     value = row.scores.get(metric.key)
     plain = False if value is None else repr(value)
-    attributes: Attributes = {"data-key": metric.key, "data-value": plain, "class": "number"}
-    return tag("td", _score(row, metric.key), attributes=attributes)
+    return _cell(metric.key, plain, score_text(row, metric.key), titled(metric))
 
 
 def _picture_cell(run: Path, row: Row, key: str) -> Markup:
     source = _embedded(object_folder(run, row.name) / Path(row.pictures.get(key, "")).name)
-    attributes: Attributes = {"class": "view", "data-picture": key}
+    attributes: Attributes = {"class": "view", "data-picture": key, "data-label": CAPTIONS[key]}
     if source is None:
         nothing = tag("span", text("\N{EN DASH}"), attributes={"class": "none", "title": "no picture"})
         return tag("td", nothing, attributes=attributes)
@@ -161,84 +152,3 @@ def _embedded(path: Path) -> str | None:
     except (OSError, SyntaxError):  # what Pillow raises for files that are no pictures, or damaged ones
         return None
     return f"data:image/webp;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"
-
-
-def _details(row: Row, protocol: Protocol) -> Markup:
-    pieces = [
-        tag("p", text(row.error), attributes={"class": "error"}) if row.error else NOTHING,
-        _parts(row, protocol),
-        _all_metrics(row, protocol),
-        _notes(row),
-    ]
-    return tag("div", *pieces, attributes={"class": "inside"})
-
-
-def _parts(row: Row, protocol: Protocol) -> Markup:
-    """The parts, with a column for every key that any of them has."""
-    if not row.parts:
-        return tag("p", text("No parts were compared."), attributes={"class": "quiet"})
-    known = {metric.key: metric for metric in protocol.metrics}
-    keys = list(dict.fromkeys(key for part in row.parts for key in part))
-    kinds = {key: _kind(part.get(key) for part in row.parts) for key in keys}
-    head = [_part_heading(key, known.get(key), kinds[key]) for key in keys]
-    body = [
-        tag(
-            "tr",
-            *(_part_cell(part.get(key), kinds[key]) for key in keys),
-            attributes={"class": _outcome(part)},
-        )
-        for part in row.parts
-    ]
-    table = tag("table", tag("thead", tag("tr", *head)), tag("tbody", *body), attributes={"class": "parts"})
-    return joined([tag("h4", text("Parts")), tag("div", table, attributes={"class": "scroll"})])
-
-
-def _kind(values: Iterable[object]) -> str:
-    """Whether a column holds numbers, which are set to the right."""
-    words = (isinstance(value, bool) or not isinstance(value, int | float | None) for value in values)
-    return "word" if any(words) else "number"
-
-
-def _part_heading(key: str, metric: Metric | None, kind: str) -> Markup:
-    title = key.replace("_", " ") if metric is None else metric.title
-    hint = False if metric is None else explained(metric)
-    return tag("th", text(title), attributes={"scope": "col", "class": kind, "title": hint})
-
-
-def _part_cell(value: object, kind: str) -> Markup:
-    return tag("td", value_text(value), attributes={"class": kind})
-
-
-def _outcome(part: object) -> str:
-    outcome = part.get("outcome") if isinstance(part, dict) else None
-    return outcome if outcome in ("matched", "missed", "invented") else ""
-
-
-def _all_metrics(row: Row, protocol: Protocol) -> Markup:
-    """Every number of an object; those over matched parts stand beside the penalised ones."""
-    keys = {metric.key for metric in protocol.metrics}
-    pairs = []
-    for metric in first_columns(protocol):
-        second = f"{metric.key}{MATCHED}"
-        beside = _score(row, second) if second in keys else NOTHING
-        name = tag("dt", text(metric.title), attributes={"title": explained(metric)})
-        second_dd = tag("dd", beside, attributes={"class": "second", "title": "matched parts only"})
-        pairs.append(tag("div", name, tag("dd", _score(row, metric.key)), second_dd))
-    title = (
-        "All metrics; grey: matched parts only"
-        if any(f"{key}{MATCHED}" in keys for key in keys)
-        else "All metrics"
-    )
-    return joined([tag("h4", text(title)), tag("dl", *pairs, attributes={"class": "metrics"})])
-
-
-def _score(row: Row, key: str) -> Markup:
-    value = row.scores.get(key)
-    return undefined("this object") if value is None else text(number(value))
-
-
-def _notes(row: Row) -> Markup:
-    if not row.notes:
-        return NOTHING
-    items = [tag("li", text(note)) for note in row.notes]
-    return joined([tag("h4", text("Notes")), tag("ul", *items, attributes={"class": "notes"})])

@@ -2,41 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
+from ..describe import FLAWS, explained, untwinned
+from ..metrics.parts import FOUND_IOU
+from ..numbers import number, titled
 from ..protocols import Metric, Protocol
-from ..results import Group, Mean, Summary
+from ..results import Group, Mean, Summary, matched_twin
 from ..rows import Settings
-from .markup import NOTHING, Markup, joined, lines, number, tag, text, undefined
+from .markup import NOTHING, Attributes, Markup, breakable, joined, lines, prose, tag, text, undefined
 
-MATCHED = "_matched"
+_SPANS = {
+    "Penalised": "missed and invented parts count with the worst",
+    "Matched parts only": "missed and invented parts are left out",
+    "All objects": "",
+}
 _ARROWS = {"higher": "↑", "lower": "↓", "": ""}
+_COLUMNS = (
+    ("Mean", "over the objects for which it is defined, each counting once"),
+    ("95 % interval", "of the mean over objects, by bootstrap; somewhat too narrow for few objects"),
+    ("n", "objects for which it is defined"),
+)
 
 
 def heading(settings: Settings, summary: Summary) -> Markup:
-    """System, what it was scored on, and how many objects there are."""
+    """System, what it was scored on, and what it found of how many objects and parts."""
     facts = {
-        "Data": settings.data,
         "Variant": settings.variant,
         "Protocol": settings.protocol,
         "Placement": settings.placement,
         "simart-kit": settings.simart_kit,
     }
-    group = summary.all
-    counts = {
-        "Objects": group.objects,
-        "Scored": group.objects - group.failed,
-        "Failed": group.failed,
-        "Static": group.static,
-        "Moving parts": group.moving_parts,
-    }
-    title = tag("h1", text(settings.system))
-    return joined([title, _pairs(facts, "facts"), _pairs(counts, "counts")])
+    pairs = [tag("div", tag("dt", text(k)), tag("dd", text(v))) for k, v in facts.items() if v]
+    title = tag("h1", breakable(f"{settings.system} on {settings.data}"))
+    return joined([title, tag("dl", *pairs, attributes={"class": "facts"}), _counts_told(summary.all)])
 
 
 def summary_table(group: Group, metrics: Sequence[Metric]) -> Markup:
     """Means over objects; of metrics that come twice, penalised and over matched parts only."""
-    twice = any(f"{metric.key}{MATCHED}" in group.means for metric in metrics)
+    twins = {metric.key: matched_twin(metric.key, group.means) for metric in metrics}
+    twice = any(twins.values())
     spans = ("Penalised", "Matched parts only") if twice else ("All objects",)
     top = [tag("th", text("Metric"), attributes={"scope": "col", "rowspan": "2"}), *map(_span, spans)]
     below = [
@@ -49,7 +54,7 @@ def summary_table(group: Group, metrics: Sequence[Metric]) -> Markup:
             "tr",
             _metric_heading(metric),
             *_mean_cells(group.means.get(metric.key)),
-            *(_mean_cells(group.means.get(f"{metric.key}{MATCHED}")) if twice else ()),
+            *(_mean_cells(group.means.get(twins[metric.key] or "")) if twice else ()),
         )
         for metric in metrics
     ]
@@ -61,19 +66,12 @@ def summary_table(group: Group, metrics: Sequence[Metric]) -> Markup:
     )
 
 
-_COLUMNS = (
-    ("Mean", "over the objects for which it is defined, each counting once"),
-    ("95 % interval", "of the mean over objects, by bootstrap"),
-    ("n", "objects for which it is defined"),
-)
-
-
 def categories_table(summary: Summary, metrics: Sequence[Metric]) -> Markup:
     """Penalised means of each category."""
     head = [
         tag("th", text("Category"), attributes={"scope": "col"}),
         *(_column(title, "") for title in ("Objects", "Failed", "Static")),
-        *(_column(f"{m.title} {_ARROWS[m.better]}".strip(), explained(m)) for m in metrics),
+        *(_column(_arrowed(m), explained(m)) for m in metrics),
     ]
     body = [_category(name, group, metrics) for name, group in summary.categories.items()]
     return tag("table", tag("thead", tag("tr", *head)), tag("tbody", lines(body)))
@@ -81,47 +79,57 @@ def categories_table(summary: Summary, metrics: Sequence[Metric]) -> Markup:
 
 def explanations(protocol: Protocol) -> Markup:
     """Every metric in words, then what is known to be wrong with the protocol."""
-    pairs = [
-        tag("div", tag("dt", text(f"{m.title} {_ARROWS[m.better]}".strip())), tag("dd", text(explained(m))))
-        for m in protocol.metrics
-    ]
-    source = tag("p", text(f"Protocol {protocol.tag}. Source: {protocol.source.rstrip('.')}."))
-    return joined([source, tag("dl", *pairs, attributes={"class": "legend"}), _flaws(protocol)])
-
-
-def explained(metric: Metric) -> str:
-    """What a metric is, and which way is better, in words."""
-    words = metric.text.rstrip(".")
-    better = f"; {metric.better} is better" if metric.better else ""
-    return f"{words[:1].upper()}{words[1:]}{better}."
-
-
-def first_columns(protocol: Protocol) -> list[Metric]:
-    """The metrics but for those that are another's column of matched parts."""
-    keys = {metric.key for metric in protocol.metrics}
-    return [m for m in protocol.metrics if m.key.removesuffix(MATCHED) not in keys - {m.key}]
+    told = untwinned(protocol.metrics)
+    pairs = [tag("div", tag("dt", text(_arrowed(m))), tag("dd", prose(explained(m)))) for m in told]
+    source = f"Protocol {protocol.tag}. Source: {protocol.source.rstrip('.')}."
+    if len(told) < len(protocol.metrics):
+        source += " The columns of matched parts have the same of those parts only."
+    legend = tag("dl", *pairs, attributes={"class": "legend"})
+    return joined([tag("p", text(source)), legend, _flaws(protocol)])
 
 
 def _flaws(protocol: Protocol) -> Markup:
     if not protocol.flaws:
         return NOTHING
-    title = tag("h3", text("Known flaws of the protocol, kept as they are"))
-    return joined([title, tag("ul", *(tag("li", text(flaw)) for flaw in protocol.flaws))])
+    return joined([tag("h3", text(FLAWS)), tag("ul", *(tag("li", prose(flaw)) for flaw in protocol.flaws))])
 
 
-def _pairs(values: dict[str, str] | dict[str, int], kind: str) -> Markup:
-    pairs = [tag("div", tag("dt", text(k)), tag("dd", text(v))) for k, v in values.items() if v != ""]
-    return tag("dl", *pairs, attributes={"class": kind})
+def _counts_told(group: Group) -> Markup:
+    """A line about objects and, where the protocol says which parts were found, one about those that move."""
+    scored = group.objects - group.failed
+    shares = {"scored": scored, "failed": group.failed, "static": group.static}
+    objects = _count_line(group.objects, "object", shares)
+    if group.found is None or group.missed is None or group.invented is None:
+        return objects
+    ends = {"found": group.found, "missed": group.missed, "invented": group.invented}
+    note = f" (IoU \N{GREATER-THAN OR EQUAL TO} {FOUND_IOU:g})"
+    return joined([objects, _count_line(group.true_parts, "moving part", ends, note)])
+
+
+def _count_line(total: int, noun: str, shares: Mapping[str, int], note: str = "") -> Markup:
+    """Such as "3 objects: 2 scored, 1 failed"."""
+    whole = _counted(total, noun if total == 1 else f"{noun}s")
+    told = Markup(", ".join(_counted(count, word) for word, count in shares.items()))
+    small = tag("small", text(note)) if note else NOTHING
+    return tag("p", whole, text(": "), told, small, attributes={"class": "counts"})
+
+
+def _counted(count: int, word: str) -> Markup:
+    return joined([tag("b", text(count)), text(f" {word}")])
 
 
 def _span(title: str) -> Markup:
-    return tag("th", text(title), attributes={"scope": "colgroup", "colspan": "3", "class": "span"})
+    hint = _SPANS[title] or False
+    attributes: Attributes = {"scope": "colgroup", "colspan": "3", "class": "span", "title": hint}
+    return tag("th", text(title), attributes=attributes)
+
+
+def _arrowed(metric: Metric) -> str:
+    return f"{titled(metric)} {_ARROWS[metric.better]}".strip()
 
 
 def _metric_heading(metric: Metric) -> Markup:
-    arrow = tag("span", text(_ARROWS[metric.better]), attributes={"class": "arrow"})
-    name = joined([text(metric.title), text(" "), arrow])
-    return tag("th", name, attributes={"scope": "row", "title": explained(metric)})
+    return tag("th", text(_arrowed(metric)), attributes={"scope": "row", "title": explained(metric)})
 
 
 def _mean_cells(value: Mean | None) -> list[Markup]:
