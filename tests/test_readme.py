@@ -28,8 +28,9 @@ COMMANDS = [
 
 @pytest.fixture
 def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A working directory with the mesh that the page speaks of."""
+    """A working directory with the files that the page speaks of."""
     shutil.copy(ROOT / "examples" / "cabinet.glb", tmp_path)
+    shutil.copytree(ROOT / "examples", tmp_path / "examples")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
