@@ -140,7 +140,7 @@ def test_a_damaged_object_is_told_and_the_others_are_written(tmp_path: Path) -> 
     done = import_cases(tmp_path / "in", tmp_path / "out", lambda name, text: told.append((name, text)))
     assert done.written == ("block", "fan")
     assert list(done.skipped) == ["cabinet"]
-    assert told[0] == ("block", "written: 12 faces, 1 parts, 0 of them move")
+    assert told[0] == ("block", "written: 12 faces, 1 part, 0 moving")
     assert told[1][0] == "cabinet"
     assert told[1][1].startswith("skipped: ")
     assert "gt.npz" in told[1][1]

@@ -19,6 +19,7 @@ from .cases import Truth
 from .formats import DEFAULT_VARIANT, find_truths
 from .formats.simart_bench import LABELS, TABLE
 from .formats.truth_tables import check_truth, part_rows
+from .numbers import counted
 
 _GREY = (166, 166, 166, 255)
 
@@ -128,5 +129,6 @@ def _glb(articulation: Articulation) -> bytes:
 
 
 def _summary(truth: Truth) -> str:
-    parts, moving = len(truth.articulation.links), len(truth.articulation.moving)
-    return f"written: {len(truth.articulation.faces)} faces, {parts} parts, {moving} of them move"
+    shape = truth.articulation
+    parts = counted(len(shape.links), "part")
+    return f"written: {counted(len(shape.faces), 'face')}, {parts}, {len(shape.moving)} moving"
