@@ -1,0 +1,50 @@
+"""A model as a folder: config.json for people, model.safetensors for the weights. No pickle."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from simart_kit.errors import OutputError
+
+from .config import read_config, write_config
+from .model import SparseVQVAE
+from .weights import read_tensors
+
+CONFIG_FILE = "config.json"
+WEIGHTS_FILE = "model.safetensors"
+
+
+def save_checkpoint(model: SparseVQVAE, folder: Path) -> Path:
+    """Write the folder (the same weights give the same bytes) and return it.
+
+    The weights are put in place in one move: a save that is interrupted leaves the earlier file whole.
+
+    Raises:
+        OutputError: the folder cannot be written.
+    """
+    from safetensors import SafetensorError
+    from safetensors.torch import save_file
+
+    tensors = {name: tensor.detach().cpu().contiguous() for name, tensor in model.state_dict().items()}
+    partial = folder / f"{WEIGHTS_FILE}.partial"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        write_config(model.config, folder / CONFIG_FILE)
+        save_file(tensors, partial)
+        partial.replace(folder / WEIGHTS_FILE)
+    except (OSError, SafetensorError) as error:
+        raise OutputError(f"cannot write the model to {folder}: {error}") from error
+    return folder
+
+
+def load_checkpoint(folder: str | Path) -> SparseVQVAE:
+    """Read a folder that `save_checkpoint` wrote, onto the CPU.
+
+    Raises:
+        BadInputError: a file is missing or damaged, a key is unknown, or the weights are of another config.
+    """
+    folder = Path(folder)
+    model = SparseVQVAE(read_config(folder / CONFIG_FILE))
+    advice = f"give the {WEIGHTS_FILE} that was saved with this {CONFIG_FILE}"
+    model.load_state_dict(read_tensors(folder / WEIGHTS_FILE, model.state_dict(), advice))
+    return model

@@ -1,0 +1,160 @@
+"""The codebook: nearest entries for cells with geometry, one reserved vector for all others."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor, nn
+
+from simart_kit.errors import BadInputError
+
+from .config import VqvaeConfig
+from .kmeans import kmeans, nearest, tally
+from .losses import mean_squared
+
+# The code of a cell without token where no code is reserved for it (mode force-sparse).
+NO_TOKEN = -1
+# An entry whose running count fell below this keeps its place: the quotient would be rounding only.
+_LEAST_COUNT = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Quantised:
+    """What the quantiser made of a batch.
+
+    Attributes:
+        vectors: (B, X, Y, Z, D) float32 for the decoder; gradients pass straight to the encoder's features.
+        codes: (B, X, Y, Z) int64; in mode zero 0 is an empty cell, in mode force-sparse -1.
+        codebook_loss: mean squared distance of chosen entries to the (fixed) features.
+        commitment_loss: the same distance, of features to the (fixed) entries.
+    """
+
+    vectors: Tensor
+    codes: Tensor
+    codebook_loss: Tensor
+    commitment_loss: Tensor
+
+
+class Quantiser(nn.Module):
+    """Codebook of `codebook_size` vectors: `zero_token` (mode zero only), then `entries`.
+
+    `entries` is a parameter, or with codebook_update "ema" a buffer that `update` moves. `zero_token` always
+    is a parameter; only the decoder gives it a gradient.
+    """
+
+    entries: Tensor
+    zero_token: nn.Parameter | None
+    idle_steps: Tensor
+    ema_count: Tensor
+    ema_sum: Tensor
+
+    def __init__(self, config: VqvaeConfig) -> None:
+        super().__init__()
+        self.config = config
+        self.first_code = config.first_code
+        spread = 1 / config.codebook_size
+        codebook = torch.empty(config.codebook_size, config.token_channels).uniform_(-spread, spread)
+        zero_token, entries = codebook[: self.first_code], codebook[self.first_code :]
+        reserved = nn.Parameter(zero_token[0].clone()) if self.first_code else None
+        self.register_parameter("zero_token", reserved)
+        if config.codebook_update == "loss":
+            self.entries = nn.Parameter(entries.clone())
+        else:
+            self.register_buffer("entries", entries.clone())
+            self.register_buffer("ema_count", torch.ones(len(entries)))
+            self.register_buffer("ema_sum", entries.clone())
+        self.register_buffer("idle_steps", torch.zeros(len(entries), dtype=torch.int64))
+
+    def forward(self, features: Tensor, occupied: Tensor) -> Quantised:
+        """Quantise (B, X, Y, Z, D) features where the (B, X, Y, Z) bool mask (and the mode) say so.
+
+        Losses are means over the quantised cells, and 0 where there are none.
+        """
+        features = features.float()
+        picked = torch.ones_like(occupied) if self.config.mode == "dense" else occupied
+        found = features[picked]
+        with torch.autocast(features.device.type, enabled=False):  # distances need float32
+            rows = nearest(found.detach(), self.entries.detach())
+        chosen = self.entries[rows]
+        codebook_loss = mean_squared(chosen, found.detach())
+        if self.config.codebook_update == "ema":
+            codebook_loss = torch.zeros_like(codebook_loss)
+        # In this order the sum is exactly the entry, so that decoding the codes gives the same logits.
+        straight_through = chosen.detach() + (found - found.detach())
+        vectors = self._empty(picked).index_put((picked,), straight_through)
+        codes = torch.full(picked.shape, self.first_code - 1, dtype=torch.int64, device=picked.device)
+        codes[picked] = rows + self.first_code
+        return Quantised(vectors, codes, codebook_loss, mean_squared(found, chosen.detach()))
+
+    def lookup(self, codes: Tensor) -> Tensor:
+        """(B, X, Y, Z) codes to (B, X, Y, Z, D) vectors.
+
+        Raises:
+            BadInputError: a code is not in the codebook.
+        """
+        lowest = NO_TOKEN if self.config.mode == "force-sparse" else 0
+        wrong = codes[(codes < lowest) | (codes >= self.config.codebook_size)]
+        if len(wrong):
+            raise BadInputError(
+                f"code {wrong[0].item()} is not in the codebook: "
+                f"this model's codes are {lowest}..{self.config.codebook_size - 1}"
+            )
+        picked = codes >= self.first_code
+        return self._empty(picked).index_put((picked,), self.entries[codes[picked] - self.first_code])
+
+    @torch.no_grad()
+    def initialise(self, vectors: Tensor, generator: torch.Generator) -> None:
+        """Set the entries to k-means centres of (N, D) encoder features, N > 0."""
+        self.entries.copy_(kmeans(vectors.float(), len(self.entries), generator))
+        self.idle_steps.zero_()
+        if self.config.codebook_update == "ema":
+            self.ema_count.fill_(1)
+            self.ema_sum.copy_(self.entries)
+
+    @torch.no_grad()
+    def update(self, features: Tensor, codes: Tensor, generator: torch.Generator) -> int:
+        """What a training step does to the codebook besides its gradient: running mean, then revival.
+
+        An entry unused in `revive_after` steps in a row becomes a random feature of this batch, each feature
+        at most once; entries left over wait for the next step.
+
+        Args:
+            features: (B, X, Y, Z, D) what the encoder gave.
+            codes: (B, X, Y, Z) what `forward` made of it.
+            generator: on the CPU, so that all devices draw alike.
+
+        Returns:
+            Number of entries revived.
+        """
+        picked = codes >= self.first_code
+        found = features[picked].float()
+        counts, sums = tally(found, codes[picked] - self.first_code, len(self.entries))
+        if self.config.codebook_update == "ema":
+            self._move_entries(counts, sums)
+        self.idle_steps.add_(1).masked_fill_(counts > 0, 0)
+        return self._revive(found, generator) if self.config.revive_after else 0
+
+    def _empty(self, picked: Tensor) -> Tensor:
+        """(B, X, Y, Z, D) vectors as if no cell had geometry."""
+        shape = (*picked.shape, self.config.token_channels)
+        if self.zero_token is None:
+            return torch.zeros(shape, device=self.entries.device)
+        return self.zero_token.expand(shape)
+
+    def _move_entries(self, counts: Tensor, sums: Tensor) -> None:
+        self.ema_count.lerp_(counts, 1 - self.config.ema_decay)
+        self.ema_sum.lerp_(sums, 1 - self.config.ema_decay)
+        known = (self.ema_count > _LEAST_COUNT)[:, None]
+        means = self.ema_sum / self.ema_count.clamp(min=_LEAST_COUNT)[:, None]
+        self.entries.copy_(torch.where(known, means, self.entries))
+
+    def _revive(self, found: Tensor, generator: torch.Generator) -> int:
+        dead = torch.nonzero(self.idle_steps >= self.config.revive_after)[:, 0][: len(found)]
+        drawn = torch.randperm(len(found), generator=generator)[: len(dead)].to(found.device)
+        self.entries[dead] = found[drawn]
+        self.idle_steps[dead] = 0
+        if self.config.codebook_update == "ema":
+            self.ema_count[dead] = 1
+            self.ema_sum[dead] = found[drawn]
+        return len(dead)
