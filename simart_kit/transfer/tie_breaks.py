@@ -1,0 +1,55 @@
+"""Faces that the votes leave open: they join the decided faces that they hang together with."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import BoolArray, FloatArray, IntArray
+from .edge_links import EdgeLinks
+
+# How much longer a way counts that crosses a crease.
+_CREASE_COST = 10.0
+
+
+def ways_to_parts(
+    middles: FloatArray, links: EdgeLinks, tied: IntArray, label: IntArray, contenders: BoolArray
+) -> FloatArray:
+    """(T, P) how far each tied face has it over the surface to a decided face of each contending part [m].
+
+    The way leads from middle to middle, through tied faces for which the same part contends; it counts ten
+    times where it crosses a crease, and is infinite where there is none.
+
+    Args:
+        middles: (F, 3) of the faces [m].
+        links: of the faces.
+        tied: (T,) ids of faces.
+        label: (F,) part of each face; those of the tied ones do not matter.
+        contenders: (T, P) which parts may have a tied face.
+    """
+    from scipy.sparse import csr_array
+    from scipy.sparse.csgraph import dijkstra
+
+    left, right = np.concatenate([np.stack([links.left, links.right], axis=1), links.repeats]).T
+    bent = np.concatenate([links.bent, np.zeros(len(links.repeats), dtype=np.bool_)])
+    open_ = np.zeros(len(middles), dtype=np.bool_)
+    open_[tied] = True
+    near = np.flatnonzero(open_[left] | open_[right])
+    cost = np.linalg.norm(middles[left[near]] - middles[right[near]], axis=1)
+    cost = np.where(bent[near], _CREASE_COST, 1.0) * np.maximum(cost, np.finfo(np.float64).tiny)
+    # The faces that matter, the tied ones first.
+    beside = np.zeros(len(middles), dtype=np.bool_)
+    beside[left[near]] = beside[right[near]] = True
+    nodes = np.concatenate([tied, np.flatnonzero(beside & ~open_)])
+    here = np.zeros(len(middles), dtype=np.int64)
+    here[nodes] = np.arange(len(nodes))
+    left, right, decided = here[left[near]], here[right[near]], label[nodes[len(tied) :]]
+    ways = np.full(contenders.shape, np.inf)
+    for part in np.flatnonzero(contenders.any(axis=0)):
+        sources = np.flatnonzero(decided == part) + len(tied)
+        allowed = np.concatenate([contenders[:, part], decided == part])
+        usable = allowed[left] & allowed[right]
+        links_used = (cost[usable], (left[usable], right[usable]))
+        graph = csr_array(links_used, shape=(len(nodes), len(nodes)))
+        if len(sources):
+            ways[:, part] = dijkstra(graph, directed=False, indices=sources, min_only=True)[: len(tied)]
+    return np.where(contenders, ways, np.inf)
