@@ -57,10 +57,11 @@ wheel: $(DEV)  ## Build a wheel from the sdist and run the tests against it in a
 	cp -r tests docs examples README.md pyproject.toml $(WHEEL)
 	cd $(WHEEL) && venv/bin/pytest
 
-bench: $(APP)  ## Time conversions, the scoring of 100 objects, and label transfer up to a million faces.
+bench: $(APP)  ## Time conversions, the scoring of 100 objects, label transfer and voxelisation.
 	$(BIN)/python tests/bench.py
 	$(BIN)/python tests/bench_scoring.py
 	$(BIN)/python tests/bench_transfer.py
+	$(BIN)/python tests/bench_voxels.py
 
 browser:  ## Install chromium by apt for the tests of pages, where no browser is found.
 	@for name in chromium chromium-browser google-chrome google-chrome-stable; do \

@@ -20,6 +20,11 @@ LongArray = NDArray[np.int64]
 _SLACK = 1e-9
 # Grid columns tested at once; keeps the working memory near 100 MB.
 _COLUMNS = 1 << 17
+# Grids of up to so many cells an edge are marked cell by cell: 16 MB.
+_MARKED = 256
+# Triangles looked at at once: as many as a processor's cache holds.
+_AT_ONCE = 1 << 14
+_NONE: LongArray = np.zeros(0, dtype=np.int64)
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,38 +94,85 @@ def cube_frame(bounds: FloatArray, resolution: int) -> GridFrame:
 def voxelise(triangles: FloatArray, frame: GridFrame) -> VoxelGrid:
     """Turn on every cell whose closed box a triangle touches, however thin or small the triangle.
 
-    Each triangle is offered the cells that its plane passes through, column by column along the axis that it
-    faces most; those that the separating-axis test does not part from it stay (Akenine-Moeller, "Fast 3D
-    Triangle-Box Overlap Testing", 2001). Triangles without area count as the segment or point that they are.
+    A triangle whose bounding box lies in one row of cells touches all of that box's cells. Each other one is
+    offered the cells that its plane passes through, column by column along the axis that it faces most; those
+    that the separating-axis test does not part from it stay (Akenine-Moeller, "Fast 3D Triangle-Box Overlap
+    Testing", 2001). Triangles without area count as the segment or point that they are.
 
     Args:
         triangles: (F, 3, 3) corners [m], such as `Mesh.triangles`.
         frame: the grid, such as `cube_frame(mesh.bounds, 64)`; what lies outside it is cut off.
     """
     cells = frame.resolution
-    corners = frame.to_grid(triangles)
-    first, last = _cell_span(corners.min(axis=1), corners.max(axis=1), cells)
-    inside = np.flatnonzero((first <= last).all(axis=1))
-    corners, first, last = corners[inside], first[inside], last[inside]
+    pieces = range(0, len(triangles), _AT_ONCE)
+    rows = [_in_rows(triangles[start : start + _AT_ONCE], frame) for start in pieces]
+    keys = [_distinct(np.concatenate([_NONE, *(found for found, _ in rows)]), cells)]
+    others = np.flatnonzero(np.concatenate([np.zeros(0, dtype=np.bool_), *(left for _, left in rows)]))
+    corners = frame.to_grid(triangles[others])
+    first, last = _cell_span(*_extremes(corners), cells)
     # The axis that a triangle faces most is put last, so that its columns run along z.
     normal = crosses(corners)
     facing = np.abs(normal).argmax(axis=1)
-    keys = [np.zeros(0, dtype=np.int64)]
     for axis in range(3):
         order = [(axis + 1) % 3, (axis + 2) % 3, axis]
         mine = np.flatnonzero(facing == axis).astype(np.int64)
         for chunk in _chunks(first[mine], last[mine], mine, order):
             touched = _touched(corners[chunk][:, :, order], first[chunk][:, order], last[chunk][:, order])
             weights = np.array([cells * cells, cells, 1], dtype=np.int64)[order]
-            keys.append(np.unique(touched @ weights))
-    flat = np.unique(np.concatenate(keys))
+            keys.append(_distinct(touched @ weights, cells))
+    flat = _distinct(np.concatenate(keys), cells)
     return VoxelGrid(frame, np.stack(np.unravel_index(flat, (cells,) * 3), axis=1))
+
+
+def _extremes(corners: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Least and greatest over the second axis of (F, 3) or (F, 3, 3); numpy's reductions take much longer."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
 
 
 def _cell_span(low: FloatArray, high: FloatArray, cells: int) -> tuple[FloatArray, FloatArray]:
     """First and last cell whose closed box meets a range, as whole floats cut to the grid."""
     first = np.maximum(np.ceil(low - _SLACK) - 1.0, 0.0)
     return first, np.minimum(np.floor(high + _SLACK), cells - 1.0)
+
+
+def _in_rows(triangles: FloatArray, frame: GridFrame) -> tuple[LongArray, BoolArray]:
+    """The cells of (F, 3, 3) triangles whose bounding box lies in one row of them.
+
+    Returns:
+        (K,) keys of those cells, and (F,) which triangles are left, those outside the grid not among them.
+    """
+    cells, count = frame.resolution, len(triangles)
+    start, end, long = np.zeros(count), np.zeros(count), np.zeros(count, dtype=np.int8)
+    inside, whole = np.ones(count, dtype=np.bool_), np.ones(count, dtype=np.bool_)
+    for axis, origin in enumerate(frame.origin):
+        low, high = ((end - origin) / frame.voxel_size for end in _extremes(triangles[:, :, axis]))
+        first, last = _cell_span(low, high, cells)
+        inside &= first <= last
+        # What the grid cuts off may be all that lies in a cell of the box.
+        whole &= (low >= 0) & (high <= cells)
+        long += last > first
+        start, end = start * cells + first, end * cells + last
+    in_row = whole & (long <= 1)
+    return _row_keys(start[in_row], end[in_row], cells), inside & ~in_row
+
+
+def _row_keys(start: FloatArray, end: FloatArray, cells: int) -> LongArray:
+    """(K,) keys of all cells in rows from the keys `start` (R,) to `end` (R,), along any axis."""
+    long = np.flatnonzero(end > start)
+    length = end[long] - start[long]
+    stride = np.where(length >= cells * cells, cells * cells, np.where(length >= cells, cells, 1))
+    row, step = _repeat((length / stride).astype(np.int64) + 1)
+    return np.concatenate([start, start[long][row] + step * stride[row]]).astype(np.int64)
+
+
+def _distinct(keys: LongArray, cells: int) -> LongArray:
+    """The keys 0..cells^3-1 that occur, ascending; small grids are marked, which is faster than to sort."""
+    if cells > _MARKED:
+        return np.unique(keys)
+    marked = np.zeros(cells**3, dtype=np.bool_)
+    marked[keys] = True
+    return np.flatnonzero(marked)
 
 
 def _chunks(first: FloatArray, last: FloatArray, ids: LongArray, order: list[int]) -> Iterator[LongArray]:
@@ -138,7 +190,8 @@ def _touched(corners: FloatArray, first: FloatArray, last: FloatArray) -> LongAr
     for axis in _axes(corners):
         reach = 0.5 * np.abs(axis).sum(axis=1) + _SLACK * np.abs(axis).max(axis=1)
         along = np.einsum("tcx,tx->tc", corners, axis)
-        low, high = along.min(axis=1) - reach, along.max(axis=1) + reach
+        low, high = _extremes(along)
+        low, high = low - reach, high + reach
         place = np.einsum("mx,mx->m", centers, axis[triangle])
         keep &= (low[triangle] <= place) & (place <= high[triangle])
     return cell[keep].astype(np.int64)
@@ -160,8 +213,9 @@ def _columns(corners: FloatArray, first: FloatArray, last: FloatArray) -> tuple[
     height = corners[:, :, 2] - np.einsum("tcx,tx->tc", corners[:, :, :2], slope)
     half = 0.5 * np.abs(slope).sum(axis=1) + 1e-6
     middle = np.einsum("mx,mx->m", corner + 0.5, slope[triangle])
-    bottom = middle + (height.min(axis=1) - half)[triangle]
-    top = middle + (height.max(axis=1) + half)[triangle]
+    lowest, highest = _extremes(height)
+    bottom = middle + (lowest - half)[triangle]
+    top = middle + (highest + half)[triangle]
     low = np.maximum(np.ceil(bottom) - 1.0, first[triangle, 2])
     high = np.minimum(np.floor(top), last[triangle, 2])
     column, step = _repeat(np.maximum(high - low + 1.0, 0.0).astype(np.int64))
