@@ -8,13 +8,14 @@ import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray, frozen_ints
 from .mesh import Mesh
-from .topology import connected, neighbours, touching, unique_rows, weld
+from .topology import connected, half_edges, shared_by_two, touching, unique_rows, weld
 
 WELD_TOLERANCE = 1e-5  # of the diagonal: far below any gap that is modelled, above single precision's noise
 CREASE_ANGLE = np.deg2rad(25.0)
 # A component that spans the object may be several solids welded together. It is fused when one of them still
 # spans the object and holds nearly all of its surface.
 _SPANNING, _FUSED_AREA = 0.95, 0.85
+_AT_ONCE = 1 << 15  # joints: what they need then stays in the processor's cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,18 +65,7 @@ def find_segments(mesh: Mesh, crease: float = CREASE_ANGLE, node_hint: bool = Fa
     keys = corners
     if node_hint and mesh.face_node is not None:
         keys = corners + int(vertex.max() + 1) * mesh.face_node[:, None]
-    found = touching(keys[kept])
-    spanning = _spanning_component(mesh, found, kept)
-    if spanning is not None:
-        inside = np.flatnonzero(found == spanning)
-        faces = kept[inside]
-        found[inside] = found.max() + 1 + _patches(mesh.face_normals[faces], corners[faces], np.pi)
-        spanning = _spanning_component(mesh, found, kept)
-    fused = spanning if _share(mesh, found, kept, spanning) >= _FUSED_AREA else None
-    if fused is not None:
-        inside = np.flatnonzero(found == fused)
-        faces = kept[inside]
-        found[inside] = found.max() + 1 + _patches(mesh.face_normals[faces], corners[faces], crease)
+    found, fused = _pieces(mesh, keys[kept], kept, crease)
     labels = np.zeros(len(corners), dtype=np.int64)
     labels[kept] = _by_area(found, mesh.face_areas[kept])
     labels[degenerate] = _largest_beside(labels, corners, degenerate, kept)
@@ -86,8 +76,33 @@ def find_segments(mesh: Mesh, crease: float = CREASE_ANGLE, node_hint: bool = Fa
         int(labels.max()) + 1,
         int(duplicate.sum()),
         int(degenerate.sum()),
-        fused is not None,
+        fused,
     )
+
+
+def _pieces(mesh: Mesh, corners: IntArray, kept: IntArray, crease: float) -> tuple[IntArray, bool]:
+    """(K,) labels of the `kept` faces, and whether a fused component was cut at its creases.
+
+    Args:
+        mesh: the faces' mesh.
+        corners: (K, 3) what the faces meet at.
+        kept: (K,) ids of the faces.
+        crease: dihedral angle that bounds the patches of a fused component [rad].
+    """
+    joints = _joints(*half_edges(corners), mesh.face_normals.take(kept, axis=0))
+    smooth = joints.patches(crease)
+    sheets = joints.patches(np.pi, smooth)
+    found = touching(corners, sheets)
+    spanning = _spanning_component(mesh, found, kept)
+    if spanning is not None:
+        inside = found == spanning
+        found[inside] = found.max() + 1 + sheets[inside]
+        spanning = _spanning_component(mesh, found, kept)
+    if spanning is None or _share(mesh, found, kept, spanning) < _FUSED_AREA:
+        return found, False
+    inside = found == spanning
+    found[inside] = found.max() + 1 + joints.among(inside).patches(crease, smooth)[inside]
+    return found, True
 
 
 def _degenerate(mesh: Mesh, corners: IntArray) -> BoolArray:
@@ -100,10 +115,12 @@ def _spanning_component(mesh: Mesh, labels: IntArray, kept: IntArray) -> int | N
     """The one of (K,) `labels` of the `kept` faces with most surface, if it spans the object."""
     areas = np.bincount(labels, mesh.face_areas[kept], minlength=1)
     largest = int(areas.argmax())
-    corners = mesh.triangles[kept[labels == largest]].reshape(-1, 3)
-    if not len(corners):
+    used = np.zeros(len(mesh.vertices), dtype=np.bool_)
+    used[mesh.faces[kept[labels == largest]]] = True
+    if not used.any():
         return None
-    extent, whole = np.ptp(corners, axis=0), mesh.bounds[1] - mesh.bounds[0]
+    extent = np.array([np.ptp(column[used]) for column in mesh.vertices.T])
+    whole = mesh.bounds[1] - mesh.bounds[0]
     return largest if (extent >= _SPANNING * whole).all() else None
 
 
@@ -113,19 +130,64 @@ def _share(mesh: Mesh, labels: IntArray, kept: IntArray, label: int | None) -> f
     return float(areas[labels == label].sum() / areas.sum()) if label is not None else 0.0
 
 
-def _patches(normals: FloatArray, corners: IntArray, crease: float) -> IntArray:
-    """(F,) label of faces connected across edges flatter than `crease`.
+@dataclass(frozen=True, eq=False)
+class _Joints:
+    """Edges that join two faces.
 
     An edge with more than two faces, as where a board stands on another, bounds them all.
+
+    Attributes:
+        half, edge: half-edges (3 * face + side) sorted by their edge.
+        normals: (F, 3) of the faces.
+        left, right: (J,) the two faces of each joint.
+        cosine: (J,) of the angle between their normals.
     """
-    edge, left, right = neighbours(corners)
-    flat = np.einsum("ij,ij->i", normals[left], normals[right]) >= np.cos(crease)
-    joined = flat & (np.bincount(edge)[edge] == 1)
-    return connected(len(corners), left[joined], right[joined])
+
+    half: IntArray
+    edge: IntArray
+    normals: FloatArray
+    left: IntArray
+    right: IntArray
+    cosine: FloatArray
+
+    def among(self, inside: BoolArray) -> _Joints:
+        """The joints as if only (F,) some of the faces were there."""
+        if inside.all():
+            return self
+        used = inside[self.half // 3]
+        return _joints(self.half[used], self.edge[used], self.normals)
+
+    def patches(self, crease: float, known: IntArray | None = None) -> IntArray:
+        """(F,) labels of faces connected across edges flatter than `crease` [rad].
+
+        Args:
+            crease: dihedral angle.
+            known: (F,) labels 0.. of faces that are connected for sure, which saves time.
+        """
+        flat = np.flatnonzero(self.cosine >= np.cos(crease))
+        left, right = self.left[flat], self.right[flat]
+        if known is None:
+            return connected(len(self.normals), left, right)
+        left, right = known[left], known[right]
+        apart = left != right
+        return connected(int(known.max(initial=-1)) + 1, left[apart], right[apart])[known]
+
+
+def _joints(half: IntArray, edge: IntArray, normals: FloatArray) -> _Joints:
+    first = shared_by_two(edge)
+    left, right = half[first] // 3, half[first + 1] // 3
+    cosine = np.zeros(len(first))
+    for start in range(0, len(first), _AT_ONCE):
+        some = slice(start, start + _AT_ONCE)
+        one, two = normals.take(left[some], axis=0), normals.take(right[some], axis=0)
+        cosine[some] = np.einsum("ij,ij->i", one, two)
+    return _Joints(half, edge, normals, left, right, cosine)
 
 
 def _largest_beside(labels: IntArray, corners: IntArray, wanted: BoolArray, kept: IntArray) -> IntArray:
     """Labels for faces without area: the lowest at one of their vertices, 0 where there is none."""
+    if not wanted.any():
+        return np.zeros(0, dtype=np.int64)
     none = len(labels)
     at_vertex = np.full(int(corners.max()) + 1, none, dtype=np.int64)
     np.minimum.at(at_vertex, corners[kept].ravel(), np.repeat(labels[kept], 3))

@@ -1,5 +1,8 @@
 """Times the transfer of part seeds to meshes of growing size, against one bare k-d tree query.
 
+The bare query builds one tree of all seeds and asks it for every vertex of the mesh as given, with as many
+threads as the transfer's own queries.
+
 Usage: python tests/bench_transfer.py [FACES ...]
 """
 
@@ -37,12 +40,17 @@ def bench(count: int) -> None:
     everything = np.concatenate(seeds)
     before = peak()
     seconds, found = {}, {}
-    seconds["bare query"] = best(lambda: cKDTree(everything).query(mesh.vertices))[0]
-    seconds["one query a part"] = best(lambda: [cKDTree(own).query(mesh.vertices) for own in seeds])[0]
+    seconds["bare query"] = best(lambda: cKDTree(everything).query(mesh.vertices, workers=-1))[0]
+    seconds["bare, one thread"] = best(lambda: cKDTree(everything).query(mesh.vertices))[0]
+    seconds["one query a part"] = best(
+        lambda: [cKDTree(own).query(mesh.vertices, workers=-1) for own in seeds]
+    )[0]
     seconds["segments alone"], segments = best(lambda: find_segments(mesh))
     seconds["seeds"], found["seeds"] = best(lambda: transfer(mesh, seeds, mode="seeds"))
     seconds["segments, known"], _ = best(lambda: transfer(mesh, seeds, segments=segments))
     seconds["segments"], found["segments"] = best(lambda: transfer(mesh, seeds))
+    # A mesh that nobody has asked for its areas and normals yet.
+    seconds["segments, cold"], _ = best(lambda: transfer(Mesh(mesh.vertices, mesh.faces), seeds))
     print(f"{len(mesh.faces)} faces, {len(mesh.vertices)} vertices, {PARTS} parts, {len(everything)} seeds")
     for name, value in seconds.items():
         print(f"  {name:<17} {value:7.3f} s  {value / seconds['bare query']:6.1f} x the bare query")

@@ -3,11 +3,20 @@
 import networkx as nx
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from simart_kit.arrays import IntArray
-from simart_kit.topology import connected, edges, neighbours, touching, unique_rows
+from simart_kit.topology import (
+    connected,
+    edges,
+    half_edges,
+    neighbours,
+    shared_by_two,
+    stable_order,
+    touching,
+    unique_rows,
+)
 
 # Two triangles that share an edge, one that meets them in a corner, one alone.
 FACES = np.array([[0, 1, 2], [2, 1, 3], [3, 4, 5], [6, 7, 8]])
@@ -64,3 +73,36 @@ def test_pieces_are_the_components_of_the_graph_of_corners(faces: IntArray) -> N
 @pytest.mark.parametrize("links", [1, 256])
 def test_a_link_may_be_given_many_times(links: int) -> None:
     assert connected(3, np.zeros(links, dtype=int), np.ones(links, dtype=int)).tolist() == [0, 0, 1]
+
+
+@pytest.mark.parametrize("step", [1, 1 << 59])
+def test_equal_keys_stay_in_order_also_where_no_bits_are_left_for_the_index(step):
+    keys = np.array([3, 0, 3, 1, 0, 3]) * step
+    order, ordered = stable_order(keys)
+    assert order.tolist() == [1, 4, 3, 0, 2, 5]
+    assert ordered.tolist() == (np.array([0, 0, 1, 3, 3, 3]) * step).tolist()
+
+
+def test_rows_that_63_bits_cannot_hold_are_told_apart():
+    rows = np.array([[1 << 40, 0, 5], [-(1 << 40), 7, 1 << 40], [1 << 40, 0, 5], [1 << 40, 0, -5]])
+    first, ids = unique_rows(rows)
+    assert first.tolist() == [1, 3, 0]
+    assert ids.tolist() == [2, 0, 2, 1]
+
+
+def test_only_edges_of_exactly_two_faces_are_pairs():
+    # Edge 0-1 has three faces, 1-2 has two, all others one.
+    half, edge = half_edges(np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4], [5, 2, 1]]))
+    first = shared_by_two(edge)
+    assert np.stack([half[first], half[first + 1]], axis=1).tolist() == [[1, 10]]  # 3 * face + side
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.lists(st.tuples(*[st.integers(0, 30)] * 3), min_size=1, max_size=14), st.data())
+def test_known_pieces_change_nothing_about_what_touches(rows, data):
+    faces = np.array(rows)
+    whole = touching(faces)
+    # Any finer labelling is true: each piece cut in up to three.
+    cut = data.draw(st.lists(st.integers(0, 2), min_size=len(rows), max_size=len(rows)))
+    pieces = np.unique(whole * 3 + np.array(cut), return_inverse=True)[1].reshape(-1)
+    assert touching(faces, pieces).tolist() == whole.tolist()

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray, units
-from ..topology import unique_rows
+from ..topology import half_edges, shared_by_two, unique_rows
 from ..triangles import unit_normals
 
 CREASE_ANGLE = np.deg2rad(25.0)
@@ -45,19 +45,20 @@ def edge_links(points: FloatArray, faces: IntArray) -> EdgeLinks:
         points: (V, 3) [m].
         faces: (F, 3) vertex ids.
     """
-    half, edge = _half_edges(faces, np.arange(faces.size), len(points))
-    first = np.flatnonzero(np.r_[True, edge[1:] != edge[:-1]])
-    uses = np.diff(np.r_[first, len(edge)])
-    pairs: list[IntArray] = [np.stack([half[first[uses == 2]], half[first[uses == 2] + 1]], axis=1)]
-    crowded = half[np.repeat(uses > 2, uses)]
+    half, edge = half_edges(faces)
+    first = shared_by_two(edge)
+    pairs: list[IntArray] = [np.stack([half[first], half[first + 1]], axis=1)]
+    crowded, edge = _crowded(half, edge, first)
     repeats: IntArray = np.zeros((0, 2), dtype=np.int64)
     if len(crowded):
         repeats = _repeats(faces, np.unique(crowded // 3))
-        crowded = crowded[~np.isin(crowded // 3, repeats[:, 0])]
-        pairs.append(_across_material(points, faces, crowded))
+        once = ~np.isin(crowded // 3, repeats[:, 0])
+        crowded, edge = crowded[once], edge[once]
+        pairs.append(_across_material(points, faces, crowded, edge))
     left, right = (np.concatenate(pairs) // 3).T
-    normals = unit_normals(points[faces])
-    bent = np.einsum("ij,ij->i", normals[left], normals[right]) < np.cos(CREASE_ANGLE)
+    normals = unit_normals(points.take(faces, axis=0))
+    cosine = np.einsum("ij,ij->i", normals.take(left, axis=0), normals.take(right, axis=0))
+    bent = cosine < np.cos(CREASE_ANGLE)
     creased = np.zeros(len(points), dtype=np.bool_)
     for sharp in (*np.concatenate(pairs)[bent].T, crowded):
         creased[faces[sharp // 3, sharp % 3]] = True
@@ -65,12 +66,13 @@ def edge_links(points: FloatArray, faces: IntArray) -> EdgeLinks:
     return EdgeLinks(left, right, bent, repeats, creased)
 
 
-def _half_edges(faces: IntArray, half: IntArray, count: int) -> tuple[IntArray, IntArray]:
-    """Half-edges (3 * face + side) sorted so that those of an edge are together, and the edge's number."""
-    start, end = faces[half // 3, half % 3], faces[half // 3, (half + 1) % 3]
-    key = np.minimum(start, end).astype(np.int64) * count + np.maximum(start, end)
-    order = np.argsort(key)
-    return half[order], key[order]
+def _crowded(half: IntArray, edge: IntArray, pair: IntArray) -> tuple[IntArray, IntArray]:
+    """The half-edges, and their edges, where more than two share an edge; `pair` is where two do."""
+    many = np.zeros(len(edge), dtype=np.bool_)
+    many[1:] = edge[1:] == edge[:-1]
+    many[:-1] |= many[1:]
+    many[pair] = many[pair + 1] = False
+    return half[many], edge[many]
 
 
 def _repeats(faces: IntArray, suspects: IntArray) -> IntArray:
@@ -83,9 +85,8 @@ def _repeats(faces: IntArray, suspects: IntArray) -> IntArray:
     return np.stack([suspects[again], suspects[first[again]]], axis=1)
 
 
-def _across_material(points: FloatArray, faces: IntArray, half: IntArray) -> IntArray:
+def _across_material(points: FloatArray, faces: IntArray, half: IntArray, edge: IntArray) -> IntArray:
     """(M, 2) half-edges of crowded edges that bound the same wedge of material."""
-    half, edge = _half_edges(faces, half, len(points))
     group = np.cumsum(np.r_[False, edge[1:] != edge[:-1]])
     rising = faces[half // 3, half % 3] < faces[half // 3, (half + 1) % 3]
     angle = _angles(points, faces, half, rising)

@@ -87,17 +87,8 @@ def transfer(
         segments = find_segments(mesh)
     vertex = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE) if segments is None else segments.vertex
     points, faces = _welded(mesh, vertex)
-    likely = known.probabilities(points)
     inside = inside_points(points, faces, known.sigma)
-    likeliest, agreed = unanimous(likely, faces)
-    agreed[inside.faces] = False
-    label, margin = likeliest[faces[:, 0]], np.ones(len(faces))
-    if not agreed.all():
-        region = region_around(points, faces, ~agreed)
-        smooth, ballot = _decided(known, likely[region.vertex_ids], region, inside, iterations)
-        likely[region.vertex_ids] = smooth
-        label[region.face_ids[region.wanted]] = ballot.label
-        margin[region.face_ids[region.wanted]] = ballot.margin
+    likely, label, margin = _voted(known, points, faces, inside, iterations)
     if mode == "segments" and segments is not None:
         weight = mesh.face_areas * margin
         label = agree_in_segments(label, weight, segments.face_segment, known.count, agreement)
@@ -110,6 +101,23 @@ def _welded(mesh: Mesh, vertex: IntArray) -> tuple[FloatArray, IntArray]:
     points = np.zeros((int(vertex.max()) + 1, 3))
     points[vertex[::-1]] = mesh.vertices[::-1]
     return points, vertex[mesh.faces]
+
+
+def _voted(
+    known: PartSeeds, points: FloatArray, faces: IntArray, inside: InsidePoints, iterations: int
+) -> tuple[Float32Array, IntArray, FloatArray]:
+    """Smoothed (W, P) probabilities at the points, and (F,) labels with how sure each is, 0..1."""
+    likely = known.probabilities(points)
+    likeliest, agreed = unanimous(likely, faces)
+    agreed[inside.faces] = False
+    label, margin = likeliest[faces[:, 0]], np.ones(len(faces))
+    if not agreed.all():
+        region = region_around(points, faces, ~agreed)
+        smooth, ballot = _decided(known, likely[region.vertex_ids], region, inside, iterations)
+        likely[region.vertex_ids] = smooth
+        label[region.face_ids[region.wanted]] = ballot.label
+        margin[region.face_ids[region.wanted]] = ballot.margin
+    return likely, label, margin
 
 
 def _decided(
@@ -126,7 +134,7 @@ def _decided(
     tied = np.flatnonzero(ballot.contenders.sum(axis=1) > 1)
     label = likely[region.faces[:, 0]].argmax(axis=1)
     label[wanted] = ballot.label
-    middles, contenders = region.points[region.faces].mean(axis=1), ballot.contenders[tied]
+    middles, contenders = _middles(region.points, region.faces), ballot.contenders[tied]
     ways = ways_to_parts(middles, links, wanted[tied], label, contenders)
     shortest = ways.min(axis=1, initial=np.inf, keepdims=True)
     # What no way leads to is decided by its own place.
@@ -144,7 +152,7 @@ def _none_lost(
         return label, ()
     from scipy.spatial import cKDTree
 
-    middles = points[faces].mean(axis=1)
+    middles = _middles(points, faces)
     places = cKDTree(np.concatenate([middles, inside.points]))
     face = np.r_[np.arange(len(faces)), np.repeat(inside.faces, inside.counts)]
     label, notes = label.copy(), []
@@ -160,6 +168,12 @@ def _none_lost(
             label[free[np.asarray(known.each_part[part].query(middles[free])[0]).argmin()]] = part
         notes.append(_note(part, int((label == part).sum())))
     return label, tuple(notes)
+
+
+def _middles(points: FloatArray, faces: IntArray) -> FloatArray:
+    """(F, 3) middles of the faces [m]."""
+    a, b, c = (points.take(corner, axis=0) for corner in faces.T)
+    return np.asarray((a + b + c) / 3)
 
 
 def _note(part: int, taken: int) -> str:

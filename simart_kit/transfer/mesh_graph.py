@@ -49,7 +49,8 @@ def hearing(faces: IntArray, listens: BoolArray, creased: BoolArray, bringing: I
     count = len(listens)
     ahead, back = faces[:, [1, 2, 0]].ravel(), faces.ravel()
     listener = np.concatenate([back, ahead, faces[bringing].ravel()])
-    teller = np.concatenate([ahead, back, count + np.repeat(np.arange(len(bringing)), 3)])
+    brought = count + np.repeat(np.arange(len(bringing)), 3)
+    teller = np.concatenate([ahead, back, brought.astype(faces.dtype)])
     loudness = np.concatenate([np.where(creased, CREASE_WEIGHT, 1.0), np.ones(len(bringing))])
     used = np.flatnonzero(listens[listener] & (listener != teller))
     listener, teller = listener[used], teller[used]

@@ -44,6 +44,6 @@ def region_around(points: FloatArray, faces: IntArray, wanted: BoolArray) -> Reg
     used = np.zeros(len(points), dtype=np.bool_)
     used[around] = True
     vertex_ids = np.flatnonzero(used)
-    here = np.zeros(len(points), dtype=np.int64)
+    here = np.zeros(len(points), dtype=np.int32)
     here[vertex_ids] = np.arange(len(vertex_ids))
     return Region(face_ids, vertex_ids, points[vertex_ids], here[around], wanted[face_ids], inner[vertex_ids])

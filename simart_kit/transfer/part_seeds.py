@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 _LEAST_RATIO = 1e-3
 # Distances that differ by less than this are equal, relative to sigma; so are places of seeds.
 _SAME = 1e-6
+# How far gaps between the seeds of different parts are measured [sigma].
+_FAR = 10.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +67,13 @@ class PartSeeds:
             for seeds in mine
         )
 
+    @cached_property
+    def gaps(self) -> FloatArray:
+        """(P, S) how far each seed has it to the nearest one of each part [m], at most `_FAR` sigma."""
+        far = _FAR * self.sigma
+        found = [tree.query(self.points, distance_upper_bound=far, workers=-1)[0] for tree in self.each_part]
+        return np.asarray(np.minimum(np.stack(found), far))
+
     def probabilities(self, points: FloatArray) -> Float32Array:
         """(N, P) chance of each part at (N, 3) points [m], each row summing to 1: P ~ exp(-d^2 / 2 sigma^2).
 
@@ -73,13 +82,12 @@ class PartSeeds:
         """
         nearest, seed = (np.asarray(found) for found in self.all_parts.query(points, workers=-1))
         reach = np.sqrt(nearest**2 + 2 * self.sigma**2 * np.log(1 / _LEAST_RATIO))
-        slack = nearest + reach
         likely = np.zeros((len(points), self.count), dtype=np.float32)
         likely[np.arange(len(points)), self.part[seed]] = 1
-        limit = float(slack.max(initial=0.0)) * (1 + _SAME)
+        # A gap cut off there may be as near as any.
+        slack = np.minimum((nearest + reach) * (1 + _SAME), _FAR * self.sigma)
         for part, tree in enumerate(self.each_part):
-            gap = np.asarray(tree.query(self.points, distance_upper_bound=limit, workers=-1)[0])
-            near = np.flatnonzero((gap[seed] <= slack) & (self.part[seed] != part))
+            near = np.flatnonzero((self.gaps[part][seed] <= slack) & (self.part[seed] != part))
             if len(near):
                 bound = float(reach[near].max()) * (1 + _SAME)
                 distance = tree.query(points[near], distance_upper_bound=bound, workers=-1)[0]
@@ -94,10 +102,15 @@ class PartSeeds:
         Where several are equally near, as in a cell that two parts share, the nearest seed that only one of
         them has decides; then the lower number.
         """
-        distance = self._distances(self.each_part, points, allowed)
-        least = distance.min(axis=1, keepdims=True)
-        tied = distance <= least + self.sigma * _SAME
-        return np.asarray(self._distances(self.own, points, tied).argmin(axis=1))
+        chosen = allowed.argmax(axis=1)
+        open_ = np.flatnonzero(allowed.sum(axis=1) != 1)
+        distance = self._distances(self.each_part, points[open_], allowed[open_])
+        tied = distance <= distance.min(axis=1, keepdims=True, initial=np.inf) + self.sigma * _SAME
+        chosen[open_] = tied.argmax(axis=1)
+        several = np.flatnonzero(tied.sum(axis=1) > 1)
+        open_, tied = open_[several], tied[several]
+        chosen[open_] = self._distances(self.own, points[open_], tied).argmin(axis=1)
+        return np.asarray(chosen)
 
     def _distances(self, trees: Sequence[cKDTree], points: FloatArray, wanted: BoolArray) -> FloatArray:
         """(N, P) distance to the trees [m] where wanted (N, P), infinite elsewhere."""

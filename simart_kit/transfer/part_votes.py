@@ -76,11 +76,10 @@ def inside_points(points: FloatArray, faces: IntArray, spacing: float) -> Inside
 
 def _extent(points: FloatArray, faces: IntArray) -> Float32Array:
     """(F,) longest side of each face's bounding box [m], in single precision."""
-    longest = np.zeros(len(faces), dtype=np.float32)
-    for column in (points - points.mean(axis=0)).astype(np.float32).T:
-        a, b, c = (column[corner] for corner in faces.T)
-        np.maximum(longest, np.maximum(np.maximum(a, b), c) - np.minimum(np.minimum(a, b), c), out=longest)
-    return longest
+    rows = (points - points.mean(axis=0)).astype(np.float32)
+    a, b, c = (rows.take(corner, axis=0) for corner in faces.T)
+    x, y, z = (np.maximum(np.maximum(a, b), c) - np.minimum(np.minimum(a, b), c)).T
+    return np.asarray(np.maximum(np.maximum(x, y), z))
 
 
 def unanimous(likely: Float32Array, faces: IntArray) -> tuple[IntArray, BoolArray]:
@@ -103,7 +102,7 @@ def vote(likely: Float32Array, faces: IntArray, tie: float, large: IntArray, sum
     """
     votes = np.zeros((len(faces), likely.shape[1]), dtype=np.float32)
     for corner in faces.T:
-        votes += likely[corner]
+        votes += likely.take(corner, axis=0)
     votes[large] += sums
     votes /= votes.sum(axis=1, keepdims=True)
     label = votes.argmax(axis=1)
