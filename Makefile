@@ -14,7 +14,7 @@ SCHEMA := $(BIN)/python -c 'from simart_kit import asset_schema, describe; \
 	print(describe.schema_text(asset_schema.AssetTable), end="")'
 WHEEL := build/wheel
 
-.PHONY: help demo test check lint types docs docs-check fmt wheel bench browser clean
+.PHONY: help demo test slow check lint types docs docs-check fmt wheel bench browser clean
 .DEFAULT_GOAL := help
 
 help:  ## List the targets.
@@ -26,6 +26,9 @@ demo: $(APP)  ## Convert the example cabinet to URDF, MJCF and USD.
 test: $(DEV)  ## Run the tests and report what they cover of the core.
 	$(BIN)/coverage run -m pytest
 	$(BIN)/coverage report
+
+slow: $(DEV)  ## Run the tests that take long: the full-size model.
+	$(BIN)/pytest -m slow
 
 check: lint types test docs-check  ## All of lint, types, test and docs-check.
 
