@@ -104,7 +104,7 @@ def stopped(tmp_path):
     return tmp_path
 
 
-def refused(folder, config, message, grids=GRIDS, **model):
+def assert_refused(folder, config, message, grids=GRIDS, **model):
     before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
     with pytest.raises(BadInputError) as caught:
         train(started(**model), grids, config, folder, resume=True)
@@ -119,9 +119,9 @@ def test_a_run_is_not_begun_over_another(stopped):
 
 
 def test_a_run_goes_on_only_as_the_run_that_it_is(stopped):
-    refused(stopped, quick(learning_rate=0.5, seed=3), "(learning_rate 0.003, now 0.5; seed 0, now 3)")
-    refused(stopped, quick(), "another model config (codebook_size 9, now 17)", codebook_size=17)
-    refused(stopped, quick(), "was trained on other grids", grids=box_grids(4))
+    assert_refused(stopped, quick(learning_rate=0.5, seed=3), "(learning_rate 0.003, now 0.5; seed 0, now 3)")
+    assert_refused(stopped, quick(), "another model config (codebook_size 9, now 17)", codebook_size=17)
+    assert_refused(stopped, quick(), "was trained on other grids", grids=box_grids(4))
 
 
 def test_what_does_not_touch_the_weights_may_change(stopped, tmp_path_factory):
@@ -135,9 +135,9 @@ def test_what_does_not_touch_the_weights_may_change(stopped, tmp_path_factory):
 def test_a_damaged_checkpoint_is_told_with_the_way_out(stopped, name):
     path = latest(stopped) / name
     path.write_bytes(path.read_bytes()[:-9])
-    refused(stopped, quick(), f"delete {latest(stopped)} to go on from the checkpoint before it")
+    assert_refused(stopped, quick(), f"delete {latest(stopped)} to go on from the checkpoint before it")
     path.unlink()
-    refused(stopped, quick(), f"{name}: ")
+    assert_refused(stopped, quick(), f"{name}: ")
 
 
 def test_a_finished_run_that_goes_on_stays_as_it_is(tmp_path):
