@@ -9,6 +9,7 @@ import numpy as np
 
 from .arrays import FloatArray, frozen_ints
 from .asset import Asset, Joint, Part, clean_name, unique_names
+from .evidence import check_evidence
 from .mesh import Mesh, Note
 from .physics import DEFAULT_MATERIAL, MATERIALS
 from .stages import PartGuess, Segmentation
@@ -18,7 +19,8 @@ def checked(segmentation: Segmentation, mesh: Mesh) -> Segmentation:
     """The segmentation with clean, unique names; joint hints follow the new names.
 
     Raises:
-        ValueError: labels of a wrong dtype, shape or range, or guesses that do not match them.
+        ValueError: labels of a wrong dtype, shape or range, guesses that do not match them, or evidence
+            that is not of this mesh.
     """
     if not isinstance(segmentation, Segmentation):
         raise ValueError(f"returned {type(segmentation).__name__}, expected a simart_kit.Segmentation")
@@ -34,6 +36,7 @@ def checked(segmentation: Segmentation, mesh: Mesh) -> Segmentation:
     if not np.array_equal(used, np.arange(count)):
         shown = ", ".join(map(str, used[:10].tolist()))
         raise ValueError(f"face_part uses ids {shown} for {count} parts, expected each of 0..{count - 1}")
+    check_evidence(segmentation.evidence, len(mesh.vertices))
     old = [p.name for p in segmentation.parts]
     new = unique_names([clean_name(name) for name in old])
     hints = segmentation.joints

@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict
 if TYPE_CHECKING:
     from .arrays import IntArray
     from .asset import Asset, Joint
+    from .evidence import Evidence
     from .mesh import Mesh, Note
 
 
@@ -77,6 +78,7 @@ class Segmentation:
             None when the segmenter has no opinion.
         face_segment: (F,) int32 finer pieces that were grouped, for the recording, or None.
         notes: what was decided, for the report.
+        evidence: how it came about, for the recording: each piece gets a view of its name.
     """
 
     face_part: IntArray
@@ -84,6 +86,7 @@ class Segmentation:
     joints: tuple[Joint, ...] | None = None
     face_segment: IntArray | None = None
     notes: tuple[Note, ...] = ()
+    evidence: tuple[Evidence, ...] = ()
 
 
 class Segmenter(Stage):

@@ -11,6 +11,7 @@ from simart_kit.arrays import FloatArray
 from simart_kit.asset import Asset
 from simart_kit.kinematics import rest_to_posed, span
 
+from .evidence import EvidenceView, evidence_views
 from .history import History
 from .sweep import Move, moves, shown_positions
 from .tape import TIMELINE
@@ -52,7 +53,10 @@ def _finished(history: History, has_preview: bool) -> Any:
     )
     words = rrb.Tabs(*_documents(history))
     below = rrb.Horizontal(_text("report/summary", "Result"), *_plots(history), words, _timings())
-    return rrb.Vertical(above, below, row_shares=[3, 2])
+    evidence = _evidence_views(history)
+    if not evidence:
+        return rrb.Vertical(above, below, row_shares=[3, 2])
+    return rrb.Vertical(above, rrb.Horizontal(*evidence), below, row_shares=[6, 3, 3])
 
 
 def _failed(history: History) -> Any:
@@ -60,7 +64,7 @@ def _failed(history: History) -> Any:
 
     words = rrb.Tabs(_text("report/summary", "So far"), *_documents(history), _timings())
     told = rrb.Vertical(_text("failure", "Why it failed"), words, row_shares=[3, 2])
-    views = [*_motion(history), *_stage_views(history)]
+    views = [*_motion(history), *_stage_views(history), *_evidence_views(history)]
     return rrb.Horizontal(told, rrb.Grid(*views, grid_columns=2), column_shares=[2, 3]) if views else told
 
 
@@ -90,6 +94,25 @@ def _stage_views(history: History) -> list[Any]:
     if asset is not None and any(part.collision for part in asset.parts):
         views.append(_view("collision", "Collision shapes", asset.mesh.bounds))
     return views
+
+
+def _evidence_views(history: History) -> list[Any]:
+    """A view a piece of evidence for the parts; tabs where it is of several things."""
+    if history.source is None or history.segmentation is None:
+        return []
+    bounds = history.source.mesh.bounds
+    return [_evidence_view(view, bounds) for view in evidence_views(history.segmentation.evidence)]
+
+
+def _evidence_view(view: EvidenceView, bounds: FloatArray) -> Any:
+    import rerun.blueprint as rrb
+
+    if not view.tabs:
+        return _view(view.origin, view.name, bounds)
+    # The viewer shows the names of tabs, but none of what holds them.
+    names = [f"{view.name}: {view.tabs[0][1]}", *(name for _, name in view.tabs[1:])]
+    tabs = [_view(origin, name, bounds) for (origin, _), name in zip(view.tabs, names, strict=True)]
+    return rrb.Tabs(*tabs, name=view.name)
 
 
 def _modifier_view(name: str, bounds: FloatArray) -> Any:

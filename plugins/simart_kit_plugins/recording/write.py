@@ -16,6 +16,7 @@ from simart_kit.normals import with_normals
 from . import documents
 from .blueprint import blueprint
 from .colors import BEFORE
+from .evidence import log_evidence
 from .history import History
 from .joints import log_joint, log_lines
 from .shapes import log_collision, log_parts, log_segments, log_textured, log_voxels
@@ -37,21 +38,22 @@ def write_recording(history: History, path: Path, preview: Path) -> None:
 
 def _log_object(tape: Tape, history: History, source: Source) -> None:
     mesh = with_normals(source.mesh)
-    _log_stages(tape, history, mesh)
+    _log_stages(tape, history, source, mesh)
     _log_modifiers(tape, history, source)
     if history.asset is not None:
         _log_asset(tape, history.asset, _shaded(history.asset, mesh, source))
         log_collision(tape, history.asset)
 
 
-def _log_stages(tape: Tape, history: History, mesh: Mesh) -> None:
-    """Source, voxels, segments and parts, in the frame of the loaded mesh."""
+def _log_stages(tape: Tape, history: History, source: Source, mesh: Mesh) -> None:
+    """Source, voxels, segments, parts and how they were found, in the frame of the loaded mesh."""
     log_textured(tape, "source", mesh, {"mesh": np.arange(len(mesh.faces), dtype=np.int32)})
     log_voxels(tape, mesh)
     if history.segmentation is not None:
         log_parts(tape, mesh, history.segmentation)
         if history.segmentation.face_segment is not None:
             log_segments(tape, mesh, history.segmentation.face_segment)
+        log_evidence(tape, source.mesh, mesh, history.segmentation.evidence)
 
 
 def _log_modifiers(tape: Tape, history: History, source: Source) -> None:
