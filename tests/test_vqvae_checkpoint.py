@@ -5,7 +5,7 @@ import pytest
 import torch
 from safetensors.torch import load_file, save_file
 from simart_kit_plugins.simart.vqvae.checkpoint import load_checkpoint, save_checkpoint
-from simart_kit_plugins.simart.vqvae.config import write_config
+from simart_kit_plugins.simart.vqvae.config_file import write_config
 from simart_kit_plugins.simart.vqvae.model import SparseVQVAE
 from simart_kit_plugins.simart.vqvae.weights import read_tensors
 

@@ -2,7 +2,8 @@ import json
 
 import pytest
 from pydantic import ValidationError
-from simart_kit_plugins.simart.vqvae.config import VqvaeConfig, read_config, write_config
+from simart_kit_plugins.simart.vqvae.config import VqvaeConfig
+from simart_kit_plugins.simart.vqvae.config_file import read_config, write_config
 
 from simart_kit.errors import BadInputError
 
@@ -23,7 +24,7 @@ from .vqvae_cases import small
     ],
 )
 def test_every_size_follows_from_the_numbers(config, edge, cells, width):
-    assert (config.latent_edge, config.cells, config.token_channels) == (edge, cells, width)
+    assert (config.latent_edge, config.cells, config.vector_length) == (edge, cells, width)
 
 
 def test_only_mode_zero_reserves_a_code():
@@ -69,11 +70,11 @@ def file_with(tmp_path, change):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda t: t["config"].update(depth=3), "config.depth: Extra inputs"),
+        (lambda t: t["config"].update(depth=3), "depth: Extra inputs"),
         (lambda t: t.update(weights="x"), "weights: Extra inputs"),
         (lambda t: t.update(schema=2), "schema: Input should be 1"),
-        (lambda t: t.update(model="other"), "model: Input should be 'sparse-vqvae'"),
-        (lambda t: t["config"].update(resolution="16"), "config.resolution: Input should be a valid integer"),
+        (lambda t: t.update(model="other"), "model 'other' is not known: use sparse-vqvae or vq-nano"),
+        (lambda t: t["config"].update(resolution="16"), "resolution: Input should be a valid integer"),
         (lambda t: t["config"].update(grid="5x5x5"), "grid 5x5x5 does not divide"),
         (lambda t: t.pop("config"), "config: Field required"),
     ],
@@ -92,7 +93,7 @@ def test_a_wrong_config_file_is_refused_in_one_line_with_its_name(tmp_path, chan
 def test_a_damaged_config_file_is_refused(tmp_path, content):
     path = tmp_path / "config.json"
     path.write_bytes(content)
-    with pytest.raises(BadInputError, match=r"config\.json is no config of a sparse VQ-VAE"):
+    with pytest.raises(BadInputError, match=r"config\.json is no config of a voxel model"):
         read_config(path)
 
 

@@ -9,9 +9,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray
 from ..errors import BadInputError
-from .metrics.shape import chamfer
 from .metrics.voxel_shape import voxel_iou
-from .sampling import Cloud
 
 _EMPTY = math.sqrt(3) / 2  # half the diagonal of a cube of side 1
 
@@ -24,11 +22,14 @@ class Reconstruction:
         mse: mean over all cells of (probability - occupancy)^2; 0..1.
         cd: chamfer distance between the middles of occupied cells (probability > 0.5), not squared, half the
             sum of the two directed means [side of the cube]; half its diagonal when nothing was decoded.
+        cd_squared: the sum of the two directed means of squared distances [square of that side]. The paper
+            does not say which of the two its table has; values of its size, 4.19e-5, are read as this one.
         iou: intersection over union of occupied cells; 0..1.
     """
 
     mse: float
     cd: float
+    cd_squared: float
     iou: float
 
 
@@ -46,13 +47,19 @@ def score_reconstruction(true: BoolArray, predicted: FloatArray | BoolArray) -> 
     _check(true, predicted)
     decoded = np.asarray(predicted > 0.5)
     mse = float(np.mean((predicted.astype(np.float64) - true) ** 2))
-    cd = chamfer(_middles(true), _middles(decoded)) if decoded.any() else _EMPTY
-    return Reconstruction(mse, cd, voxel_iou(true, decoded))
+    there, back = _missed(true, decoded), _missed(decoded, true)
+    cd = (there.mean() + back.mean()) / 2
+    squared = (there**2).mean() + (back**2).mean()
+    return Reconstruction(mse, float(cd), float(squared), voxel_iou(true, decoded))
 
 
-def _middles(grid: BoolArray) -> Cloud:
-    cells = np.argwhere(grid)
-    return Cloud((cells + 0.5) / len(grid), np.zeros(len(cells), dtype=np.int32), np.ones(len(cells)))
+def _missed(cells: BoolArray, others: BoolArray) -> FloatArray:
+    """(K,) distance of each occupied cell to the nearest of others [side of the cube]."""
+    from scipy.ndimage import distance_transform_edt
+
+    if not cells.any() or not others.any():
+        return np.array([_EMPTY])
+    return np.asarray(distance_transform_edt(~others)[cells]) / len(cells)
 
 
 def _check(true: BoolArray, predicted: FloatArray | BoolArray) -> None:

@@ -22,9 +22,9 @@ from torch.optim import AdamW
 
 from simart_kit.errors import BadInputError, OutputError
 
+from ..models import VoxelModel
 from ..vqvae.checkpoint import CONFIG_FILE, WEIGHTS_FILE, save_checkpoint
-from ..vqvae.config import read_config
-from ..vqvae.model import SparseVQVAE
+from ..vqvae.config_file import read_config
 from ..vqvae.weights import read_tensors
 from .config import TrainingConfig, told
 from .optimiser import load_optimiser_tensors, optimiser_tensors, stage_optimiser
@@ -66,7 +66,7 @@ def latest(run: Path) -> Path | None:
     return found[-1] if found else None
 
 
-def save(run: Path, model: SparseVQVAE, position: Position, config: TrainingConfig, data: str) -> Path:
+def save(run: Path, model: VoxelModel, position: Position, config: TrainingConfig, data: str) -> Path:
     """Write a checkpoint, put it in place in one move, and remove all but the last two.
 
     Raises:
@@ -98,7 +98,7 @@ def save(run: Path, model: SparseVQVAE, position: Position, config: TrainingConf
     return target
 
 
-def load(folder: Path, model: SparseVQVAE, config: TrainingConfig, data: str) -> Position:
+def load(folder: Path, model: VoxelModel, config: TrainingConfig, data: str) -> Position:
     """Put a checkpoint into a model of the same config, on the model's device.
 
     Raises:
@@ -140,7 +140,7 @@ def _read_state(path: Path, advice: str) -> _StateFile:
 
 
 def _check_same(
-    folder: Path, state: _StateFile, model: SparseVQVAE, config: TrainingConfig, data: str
+    folder: Path, state: _StateFile, model: VoxelModel, config: TrainingConfig, data: str
 ) -> None:
     pairs = {
         "model": (read_config(folder / CONFIG_FILE), model.config),

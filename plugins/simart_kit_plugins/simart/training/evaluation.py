@@ -14,7 +14,7 @@ from simart_kit.arrays import BoolArray
 from simart_kit.bench.reconstruction import Reconstruction, score_reconstruction
 from simart_kit.errors import BadInputError
 
-from ..vqvae.model import SparseVQVAE
+from ..models import VoxelModel
 from ..vqvae.usage import Usage, count_codes, usage
 
 
@@ -27,6 +27,7 @@ class Evaluation:
         iou: intersection over union of voxels; 0..1.
         mse: of probabilities, over all voxels; 0..1.
         cd: chamfer distance of occupied voxels [side of the cube].
+        cd_squared: the same in the paper's sense [square of that side].
         usage: of the codebook, over all grids.
     """
 
@@ -34,10 +35,11 @@ class Evaluation:
     iou: float
     mse: float
     cd: float
+    cd_squared: float
     usage: Usage
 
 
-def evaluate(model: SparseVQVAE, occupancies: Iterable[BoolArray], batch_size: int = 8) -> Evaluation:
+def evaluate(model: VoxelModel, occupancies: Iterable[BoolArray], batch_size: int = 8) -> Evaluation:
     """Encode each grid to codes, decode these alone, and score what comes back.
 
     Cells without a token stay empty, as for whoever reads a token string; in mode dense all cells have one.
@@ -52,7 +54,7 @@ def evaluate(model: SparseVQVAE, occupancies: Iterable[BoolArray], batch_size: i
     """
     scores: list[Reconstruction] = []
     counts = torch.zeros(model.config.codebook_size - model.config.first_code, dtype=torch.int64)
-    device = model.encoder.input_layer.weight.device
+    device = next(model.parameters()).device
     remaining = iter(occupancies)
     while batch := list(islice(remaining, batch_size)):
         voxels = torch.from_numpy(np.stack(batch))[:, None].to(device)
@@ -61,11 +63,12 @@ def evaluate(model: SparseVQVAE, occupancies: Iterable[BoolArray], batch_size: i
         scores += [score_reconstruction(t, p) for t, p in zip(batch, chances.cpu().numpy(), strict=True)]
     if not scores:
         raise BadInputError("there is no grid to evaluate the model on")
-    iou, mse, cd = np.mean([(score.iou, score.mse, score.cd) for score in scores], axis=0).tolist()
-    return Evaluation(len(scores), iou, mse, cd, usage(counts))
+    told = [(score.iou, score.mse, score.cd, score.cd_squared) for score in scores]
+    iou, mse, cd, squared = np.mean(told, axis=0).tolist()
+    return Evaluation(len(scores), iou, mse, cd, squared, usage(counts))
 
 
-def _rebuilt(model: SparseVQVAE, voxels: Tensor) -> tuple[Tensor, Tensor]:
+def _rebuilt(model: VoxelModel, voxels: Tensor) -> tuple[Tensor, Tensor]:
     """Codes (B, X, Y, Z) of (B, 1, R, R, R) voxels, and (B, R, R, R) probabilities from the codes alone."""
     encoded = model.encode(voxels)
     seen = None if model.config.mode == "dense" else encoded.occupied

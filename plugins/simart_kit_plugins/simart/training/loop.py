@@ -9,9 +9,11 @@ from pathlib import Path
 from simart_kit.errors import BadInputError, OutputError
 from simart_kit.output import claimed
 
+from ..models import VoxelModel
+from ..vqnano.components import fit_components
+from ..vqnano.model import VqNano
 from ..vqvae.checkpoint import save_checkpoint
 from ..vqvae.initialise import initialise_codebook
-from ..vqvae.model import SparseVQVAE
 from . import checkpointing
 from .checkpointing import Position
 from .config import TrainingConfig, write_training_config
@@ -26,17 +28,17 @@ from .window import Window
 MODEL_FOLDER, CONFIG_FILE = "model", "training.json"
 Observer = Callable[[LogRow], None]
 # Vectors that k-means is given for each code.
-_VECTORS_PER_CODE = 64
+_VECTORS_PER_CODE = 16
 
 
 def train(
-    model: SparseVQVAE,
+    model: VoxelModel,
     grids: Grids,
     config: TrainingConfig,
     run: Path,
     resume: bool = False,
     observer: Observer | None = None,
-) -> SparseVQVAE:
+) -> VoxelModel:
     """Train a model in place, from its weights or from the last checkpoint of the run.
 
     Stage 1 trains what `stage_parameters` names, from entries that k-means made of the encoder's features;
@@ -99,18 +101,20 @@ def _checkpoint(run: Path, resume: bool) -> Path | None:
     return found
 
 
-def _begin(model: SparseVQVAE, sampler: Sampler) -> Position:
+def _begin(model: VoxelModel, sampler: Sampler) -> Position:
     """The model with its first codebook, and the optimiser of the first step."""
     config = sampler.config
     if config.start_codebook:
         once = range(math.ceil(len(sampler.grids) / config.batch_size))
         most = _VECTORS_PER_CODE * model.config.codebook_size
+        if isinstance(model, VqNano):
+            fit_components(model, map(sampler.batch, once))
         initialise_codebook(model, map(sampler.batch, once), torch_generator(config.seed, -1), most)
     return Position(0, stage_optimiser(model, config.stage(0), config))
 
 
 def _take_steps(
-    model: SparseVQVAE, sampler: Sampler, start: Position, run: Path, observer: Observer | None
+    model: VoxelModel, sampler: Sampler, start: Position, run: Path, observer: Observer | None
 ) -> None:
     config, optimiser = sampler.config, start.optimiser
     write_training_config(config, run / CONFIG_FILE)

@@ -6,14 +6,14 @@ import torch
 from torch import Tensor, nn
 from torch.optim import AdamW
 
-from ..vqvae.model import SparseVQVAE
+from ..models import VoxelModel
 from ..vqvae.stages import stage_parameters
 from .config import Stage, TrainingConfig
 
 _STATE = ("step", "exp_avg", "exp_avg_sq")
 
 
-def stage_optimiser(model: SparseVQVAE, stage: Stage, config: TrainingConfig) -> AdamW:
+def stage_optimiser(model: VoxelModel, stage: Stage, config: TrainingConfig) -> AdamW:
     """A fresh optimiser of a stage's parameters; all others of the model are frozen, which saves their time.
 
     The weight decay is for convolution weights: it would pull codes that a batch does not use to 0.
@@ -43,7 +43,7 @@ def set_rate(optimiser: AdamW, rate: float) -> None:
         group["lr"] = rate
 
 
-def optimiser_tensors(model: SparseVQVAE, optimiser: AdamW) -> dict[str, Tensor]:
+def optimiser_tensors(model: VoxelModel, optimiser: AdamW) -> dict[str, Tensor]:
     """The state by name, such as `exp_avg.decoder.input_layer.bias`; the tensors are the optimiser's own."""
     return {
         f"{kind}.{name}": optimiser.state[parameter][kind]
@@ -53,11 +53,11 @@ def optimiser_tensors(model: SparseVQVAE, optimiser: AdamW) -> dict[str, Tensor]
 
 
 @torch.no_grad()
-def load_optimiser_tensors(model: SparseVQVAE, optimiser: AdamW, tensors: dict[str, Tensor]) -> None:
+def load_optimiser_tensors(model: VoxelModel, optimiser: AdamW, tensors: dict[str, Tensor]) -> None:
     """Put a state that `optimiser_tensors` named into an optimiser of the same stage."""
     for name, own in optimiser_tensors(model, optimiser).items():
         own.copy_(tensors[name])
 
 
-def _trained(model: SparseVQVAE, optimiser: AdamW) -> list[tuple[str, nn.Parameter]]:
+def _trained(model: VoxelModel, optimiser: AdamW) -> list[tuple[str, nn.Parameter]]:
     return [(name, p) for name, p in model.named_parameters() if p in optimiser.state]

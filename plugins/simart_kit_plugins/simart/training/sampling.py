@@ -36,7 +36,7 @@ class Sampler:
     device: torch.device
 
     def batch(self, step: int) -> Tensor:
-        """(B, 1, R, R, R) float32 0 or 1, the batch of a step."""
+        """(B, 1, R, R, R) uint8 0 or 1, the batch of a step."""
         rows = batch_rows(len(self.grids), self.config.batch_size, self.config.seed, step)
         voxels = unpack_on(self.grids.packed[rows], self.grids.resolution, self.device)
         return augmented(voxels, self.config.seed, step) if self.config.augment else voxels
@@ -70,12 +70,11 @@ def augmented(voxels: Tensor, seed: int, step: int) -> Tensor:
 
 
 def unpack_on(packed: ByteArray, resolution: int, device: torch.device) -> Tensor:
-    """(B, ceil(R^3 / 8)) packed grids to (B, 1, R, R, R) float32 on a device, unpacked there."""
+    """(B, ceil(R^3 / 8)) packed grids to (B, 1, R, R, R) uint8 on a device, unpacked there."""
     bytes_there = torch.from_numpy(np.array(packed)).to(device)
     shifts = torch.arange(7, -1, -1, dtype=torch.uint8, device=device)
     bits = (bytes_there[:, :, None] >> shifts) & 1
-    voxels = bits.flatten(1)[:, : resolution**3].reshape(-1, 1, *(resolution,) * 3)
-    return voxels.float()
+    return bits.flatten(1)[:, : resolution**3].reshape(-1, 1, *(resolution,) * 3)
 
 
 def torch_generator(seed: int, number: int) -> torch.Generator:

@@ -7,7 +7,9 @@ from torch import Tensor
 from torch.nn.utils import clip_grad_norm_
 from torch.optim import AdamW
 
-from ..vqvae.model import Output, SparseVQVAE
+from ..models import VoxelModel
+from ..vqnano.model import BlockOutput
+from ..vqvae.model import Output
 from .config import TrainingConfig
 from .optimiser import set_rate
 from .sampling import torch_generator
@@ -18,8 +20,8 @@ class DivergedError(Exception):
 
 
 def train_step(
-    model: SparseVQVAE, optimiser: AdamW, voxels: Tensor, config: TrainingConfig, step: int
-) -> tuple[Output, int]:
+    model: VoxelModel, optimiser: AdamW, voxels: Tensor, config: TrainingConfig, step: int
+) -> tuple[Output | BlockOutput, int]:
     """Change the model by the step of this number.
 
     Args:
@@ -37,7 +39,7 @@ def train_step(
     """
     half = config.precision == "bf16"
     with torch.autocast(voxels.device.type, dtype=torch.bfloat16, enabled=half):
-        output: Output = model(voxels)
+        output: Output | BlockOutput = model(voxels)
     optimiser.zero_grad()
     torch.autograd.backward(output.losses.total)
     trained = [parameter for group in optimiser.param_groups for parameter in group["params"]]
@@ -50,7 +52,7 @@ def train_step(
     return output, model.quantiser.update(output.features, output.codes, draw)
 
 
-def check_weights(model: SparseVQVAE) -> None:
+def check_weights(model: VoxelModel) -> None:
     """Raise DivergedError for a weight that is not finite: such a model cannot be loaded again."""
     for name, tensor in model.state_dict().items():
         if not torch.isfinite(tensor).all():

@@ -8,7 +8,8 @@ from pathlib import Path
 import torch
 from torch import Tensor
 
-from ..vqvae.config import VqvaeConfig
+from ..vqnano.model import BlockOutput
+from ..vqvae.config import CodebookConfig
 from ..vqvae.model import Output
 from ..vqvae.usage import count_codes, usage
 from .config import TrainingConfig
@@ -24,17 +25,19 @@ class Window:
         step: where the run begins or goes on.
     """
 
-    def __init__(self, path: Path, model: VqvaeConfig, step: int) -> None:
+    def __init__(self, path: Path, model: CodebookConfig, step: int) -> None:
         self._log, self._model = Log(path, step), model
         self._began = time.perf_counter() - self._log.seconds
         self._counts, self._revived = self._nothing(), 0
 
-    def add(self, output: Output, revived: int) -> None:
+    def add(self, output: Output | BlockOutput, revived: int) -> None:
         """Take in a step."""
         self._counts += count_codes(output.codes.cpu(), self._model)
         self._revived += revived
 
-    def close(self, done: int, config: TrainingConfig, output: Output, voxels: Tensor) -> LogRow:
+    def close(
+        self, done: int, config: TrainingConfig, output: Output | BlockOutput, voxels: Tensor
+    ) -> LogRow:
         """Write the row of the steps taken in, the last of which gave `output` from `voxels`."""
         used = usage(self._counts)
         terms = output.losses

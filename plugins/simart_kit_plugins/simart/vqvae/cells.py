@@ -5,7 +5,9 @@ from __future__ import annotations
 from torch import Tensor
 from torch.nn.functional import interpolate, max_pool3d
 
-from .config import VqvaeConfig
+from simart_kit.errors import BadInputError
+
+from .config import CodebookConfig, VqvaeConfig
 from .space_to_depth import depth_to_space, space_to_depth
 
 
@@ -24,3 +26,17 @@ def voxels_of_cells(occupied: Tensor, config: VqvaeConfig) -> Tensor:
     tokens = occupied.unsqueeze(-1).expand(*occupied.shape, latent_cells)
     latent = depth_to_space(tokens, config.latent_edge, config.layout)
     return interpolate(latent.float(), scale_factor=config.voxels_per_latent_cell, mode="nearest") > 0
+
+
+def require_grid(occupancy: Tensor, config: CodebookConfig) -> None:
+    """Raise BadInputError for voxels that are not (B, 1, R, R, R) of the config's resolution."""
+    edge, shape = config.resolution, tuple(occupancy.shape)
+    if len(shape) != 5 or shape[1:] != (1, edge, edge, edge):
+        raise BadInputError(f"voxel grid of shape {shape}: this model reads (B, 1, {edge}, {edge}, {edge})")
+
+
+def require_cells(what: str, array: Tensor, config: CodebookConfig) -> None:
+    """Raise BadInputError for an array, named `what`, that is not (B, X, Y, Z) of the config's tokens."""
+    if array.ndim != 4 or array.shape[1:] != config.cells:
+        x, y, z = config.cells
+        raise BadInputError(f"{what} of shape {tuple(array.shape)}: this model reads (B, {x}, {y}, {z})")

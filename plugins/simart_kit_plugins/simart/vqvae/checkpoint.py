@@ -6,15 +6,15 @@ from pathlib import Path
 
 from simart_kit.errors import OutputError
 
-from .config import read_config, write_config
-from .model import SparseVQVAE
+from ..models import VoxelModel, build_model
+from .config_file import read_config, write_config
 from .weights import read_tensors
 
 CONFIG_FILE = "config.json"
 WEIGHTS_FILE = "model.safetensors"
 
 
-def save_checkpoint(model: SparseVQVAE, folder: Path) -> Path:
+def save_checkpoint(model: VoxelModel, folder: Path) -> Path:
     """Write the folder (the same weights give the same bytes) and return it.
 
     The weights are put in place in one move: a save that is interrupted leaves the earlier file whole.
@@ -37,14 +37,14 @@ def save_checkpoint(model: SparseVQVAE, folder: Path) -> Path:
     return folder
 
 
-def load_checkpoint(folder: str | Path) -> SparseVQVAE:
+def load_checkpoint(folder: str | Path) -> VoxelModel:
     """Read a folder that `save_checkpoint` wrote, onto the CPU.
 
     Raises:
         BadInputError: a file is missing or damaged, a key is unknown, or the weights are of another config.
     """
     folder = Path(folder)
-    model = SparseVQVAE(read_config(folder / CONFIG_FILE))
+    model = build_model(read_config(folder / CONFIG_FILE))
     advice = f"give the {WEIGHTS_FILE} that was saved with this {CONFIG_FILE}"
     model.load_state_dict(read_tensors(folder / WEIGHTS_FILE, model.state_dict(), advice))
     return model

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
+from abc import abstractmethod
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
-
-from simart_kit.errors import BadInputError
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 Mode = Literal["zero", "force-sparse", "dense"]
 Layout = Literal["spatial", "flat-view"]
@@ -20,27 +18,14 @@ class _Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
 
-class VqvaeConfig(_Table):
-    """Sizes, representation and loss of a `SparseVQVAE`; the defaults are the paper's full-size model.
-
-    Source: SIMART, section "Sparse 3D VQ-VAE" and its appendix; the torso is TRELLIS' sparse-structure VAE.
-    """
+class CodebookConfig(_Table):
+    """What all voxel models have in common: the token grid, the codebook and the weights of the losses."""
 
     resolution: int = Field(default=64, gt=0, description="Voxels along an edge of the cubic input grid.")
-    channels: tuple[_Count, ...] = Field(
-        default=(32, 128, 512), min_length=1, description="Channels of each level; each halves the edge."
-    )
-    blocks_per_level: int = Field(default=2, ge=0, description="Residual blocks of each level.")
-    middle_blocks: int = Field(default=2, ge=0, description="Residual blocks at the coarsest level.")
-    latent_channels: int = Field(default=8, gt=0, description="Channels of the latent grid.")
     grid: str = Field(
         default="8x8x8",
         pattern=r"^[1-9][0-9]*x[1-9][0-9]*x[1-9][0-9]*$",
         description="Tokens along x, y and z, such as 8x8x8 or 16x8x8.",
-    )
-    layout: Layout = Field(
-        default="spatial",
-        description="Latent cells of a token: spatial neighbours, or a run of memory as in foreign models.",
     )
     mode: Mode = Field(
         default="zero",
@@ -57,6 +42,40 @@ class VqvaeConfig(_Table):
     )
     beta: float = Field(default=0.25, ge=0, description="Weight of the commitment loss.")
     dice_weight: float = Field(default=0.0, ge=0, description="Weight of the dice loss beside the BCE.")
+
+    @property
+    def cells(self) -> Cells:
+        """Tokens along x, y and z."""
+        x, y, z = map(int, self.grid.split("x"))
+        return x, y, z
+
+    @property
+    @abstractmethod
+    def vector_length(self) -> int:
+        """Length D of a token's vector."""
+
+    @property
+    def first_code(self) -> int:
+        """The lowest code that stands for geometry: 1 where code 0 is reserved for emptiness."""
+        return 1 if self.mode == "zero" else 0
+
+
+class VqvaeConfig(CodebookConfig):
+    """Sizes, representation and loss of a `SparseVQVAE`; the defaults are the paper's full-size model.
+
+    Source: SIMART, section "Sparse 3D VQ-VAE" and its appendix; the torso is TRELLIS' sparse-structure VAE.
+    """
+
+    channels: tuple[_Count, ...] = Field(
+        default=(32, 128, 512), min_length=1, description="Channels of each level; each halves the edge."
+    )
+    blocks_per_level: int = Field(default=2, ge=0, description="Residual blocks of each level.")
+    middle_blocks: int = Field(default=2, ge=0, description="Residual blocks at the coarsest level.")
+    latent_channels: int = Field(default=8, gt=0, description="Channels of the latent grid.")
+    layout: Layout = Field(
+        default="spatial",
+        description="Latent cells of a token: spatial neighbours, or a run of memory as in foreign models.",
+    )
 
     @model_validator(mode="after")
     def _check_sizes(self) -> Self:
@@ -80,46 +99,6 @@ class VqvaeConfig(_Table):
         return self.resolution // self.voxels_per_latent_cell
 
     @property
-    def cells(self) -> Cells:
-        """Tokens along x, y and z."""
-        x, y, z = map(int, self.grid.split("x"))
-        return x, y, z
-
-    @property
-    def token_channels(self) -> int:
+    def vector_length(self) -> int:
         """Length of a token's vector; 64 for 8x8x8 and 32 for 16x8x8 at full size."""
         return self.latent_channels * self.latent_edge**3 // math.prod(self.cells)
-
-    @property
-    def first_code(self) -> int:
-        """The lowest code that stands for geometry: 1 where code 0 is reserved for emptiness."""
-        return 1 if self.mode == "zero" else 0
-
-
-class _ConfigFile(_Table):
-    """The JSON file beside the weights."""
-
-    schema_version: Literal[1] = Field(alias="schema")
-    model: Literal["sparse-vqvae"]
-    config: VqvaeConfig
-
-
-def write_config(config: VqvaeConfig, path: Path) -> None:
-    """Write the JSON file that `read_config` reads; every field, so that later defaults change nothing."""
-    file = _ConfigFile(schema=1, model="sparse-vqvae", config=config)
-    path.write_text(file.model_dump_json(indent=1, by_alias=True) + "\n", encoding="utf-8")
-
-
-def read_config(path: Path) -> VqvaeConfig:
-    """Read a config file strictly.
-
-    Raises:
-        BadInputError: there is no such file, it is damaged, or a key is unknown, missing or wrong.
-    """
-    try:
-        return _ConfigFile.model_validate_json(path.read_bytes()).config
-    except OSError as error:
-        raise BadInputError(f"cannot read {path}: {error.strerror}; give the folder of a model") from error
-    except ValidationError as error:
-        told = "; ".join(f"{'.'.join(map(str, e['loc'])) or 'file'}: {e['msg']}" for e in error.errors())
-        raise BadInputError(f"{path} is no config of a sparse VQ-VAE: {told}") from error

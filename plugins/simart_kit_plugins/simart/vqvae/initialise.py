@@ -9,7 +9,7 @@ from torch import Tensor
 
 from simart_kit.errors import BadInputError
 
-from .model import SparseVQVAE
+from ..models import VoxelModel
 
 # Vectors given to k-means; 64 an entry of the full codebook.
 MOST_VECTORS = 1 << 18
@@ -17,7 +17,7 @@ MOST_VECTORS = 1 << 18
 
 @torch.no_grad()
 def initialise_codebook(
-    model: SparseVQVAE, batches: Iterable[Tensor], generator: torch.Generator, most: int = MOST_VECTORS
+    model: VoxelModel, batches: Iterable[Tensor], generator: torch.Generator, most: int = MOST_VECTORS
 ) -> int:
     """Set the entries to k-means centres of encoder features, and the zero token to the mean of empty cells.
 
@@ -50,7 +50,7 @@ def initialise_codebook(
 
 
 @torch.no_grad()
-def initialise_zero_token(model: SparseVQVAE, occupancy: Tensor) -> None:
+def initialise_zero_token(model: VoxelModel, occupancy: Tensor) -> None:
     """Set the zero token to the mean feature of the cells of (B, 1, R, R, R) voxels that have none on."""
     empty = _EmptyMean(model)
     empty.add(*model.features(occupancy))
@@ -60,9 +60,9 @@ def initialise_zero_token(model: SparseVQVAE, occupancy: Tensor) -> None:
 class _EmptyMean:
     """Mean of the features of empty cells, batch by batch, in float64."""
 
-    def __init__(self, model: SparseVQVAE) -> None:
+    def __init__(self, model: VoxelModel) -> None:
         self._token = model.quantiser.zero_token
-        self._sum = torch.zeros(model.config.token_channels, dtype=torch.float64)
+        self._sum = torch.zeros(model.config.vector_length, dtype=torch.float64)
         self._count = 0
 
     def add(self, features: Tensor, occupied: Tensor) -> None:

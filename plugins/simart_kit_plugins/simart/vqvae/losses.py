@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from torch import Tensor
 from torch.nn.functional import binary_cross_entropy_with_logits
 
-from .config import VqvaeConfig
+from .config import CodebookConfig
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,12 +30,19 @@ class Losses:
 
 
 def losses(
-    logits: Tensor, occupancy: Tensor, codebook: Tensor, commitment: Tensor, config: VqvaeConfig
+    logits: Tensor, occupancy: Tensor, codebook: Tensor, commitment: Tensor, config: CodebookConfig
 ) -> Losses:
     """All terms and their weighted sum, from (B, 1, R, R, R) logits and 0-or-1 voxels."""
     logits, occupancy = logits.float(), occupancy.float()
     reconstruction = binary_cross_entropy_with_logits(logits, occupancy)
     dice = dice_loss(logits, occupancy)
+    return weighted(reconstruction, dice, codebook, commitment, config)
+
+
+def weighted(
+    reconstruction: Tensor, dice: Tensor, codebook: Tensor, commitment: Tensor, config: CodebookConfig
+) -> Losses:
+    """The terms with their sum, weighted as the config says."""
     total = reconstruction + config.dice_weight * dice + codebook + config.beta * commitment
     return Losses(reconstruction, dice, codebook, commitment, total)
 

@@ -7,9 +7,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor, nn
 
-from simart_kit.errors import BadInputError
-
-from .cells import occupied_cells, voxels_of_cells
+from .cells import occupied_cells, require_cells, require_grid, voxels_of_cells
 from .config import VqvaeConfig
 from .decoder import Decoder
 from .encoder import Encoder
@@ -100,11 +98,11 @@ class SparseVQVAE(nn.Module):
         Raises:
             BadInputError: the codes are of another shape, or a code is not in the codebook.
         """
-        self._check_cells("codes", codes)
+        require_cells("codes", codes, self.config)
         logits = self._decode(self.quantiser.lookup(codes))
         if occupied is None:
             return logits
-        self._check_cells("occupied cells", occupied)
+        require_cells("occupied cells", occupied, self.config)
         return logits.masked_fill(~voxels_of_cells(occupied, self.config), -torch.inf)
 
     def features(self, occupancy: Tensor) -> tuple[Tensor, Tensor]:
@@ -113,21 +111,16 @@ class SparseVQVAE(nn.Module):
         Raises:
             BadInputError: the grid is of another shape.
         """
-        edge, shape = self.config.resolution, tuple(occupancy.shape)
-        if len(shape) != 5 or shape[1:] != (1, edge, edge, edge):
-            raise BadInputError(
-                f"voxel grid of shape {shape}: this model reads (B, 1, {edge}, {edge}, {edge})"
-            )
+        require_grid(occupancy, self.config)
         latent = self.encoder(occupancy.to(self.encoder.input_layer.weight.dtype))
         features = space_to_depth(latent, self.config.cells, self.config.layout)
         return features, occupied_cells(occupancy, self.config)
+
+    def first_stage_parameters(self) -> list[nn.Parameter]:
+        """What stage 1 trains: what TRELLIS' weights lack, that is the codebook, and what meets it first."""
+        return [*self.quantiser.parameters(), *self.decoder.input_layer.parameters()]
 
     def _decode(self, vectors: Tensor) -> Tensor:
         latent = depth_to_space(vectors, self.config.latent_edge, self.config.layout)
         logits: Tensor = self.decoder(latent)
         return logits
-
-    def _check_cells(self, what: str, array: Tensor) -> None:
-        if array.ndim != 4 or array.shape[1:] != self.config.cells:
-            x, y, z = self.config.cells
-            raise BadInputError(f"{what} of shape {tuple(array.shape)}: this model reads (B, {x}, {y}, {z})")

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import torch
 from torch import Tensor, nn
 
 from simart_kit.errors import BadInputError
 
-from .config import VqvaeConfig
+from .config import CodebookConfig
 from .kmeans import kmeans, nearest, tally
 from .losses import mean_squared
 
@@ -49,12 +49,12 @@ class Quantiser(nn.Module):
     ema_count: Tensor
     ema_sum: Tensor
 
-    def __init__(self, config: VqvaeConfig) -> None:
+    def __init__(self, config: CodebookConfig) -> None:
         super().__init__()
         self.config = config
         self.first_code = config.first_code
         spread = 1 / config.codebook_size
-        codebook = torch.empty(config.codebook_size, config.token_channels).uniform_(-spread, spread)
+        codebook = torch.empty(config.codebook_size, config.vector_length).uniform_(-spread, spread)
         zero_token, entries = codebook[: self.first_code], codebook[self.first_code :]
         reserved = nn.Parameter(zero_token[0].clone()) if self.first_code else None
         self.register_parameter("zero_token", reserved)
@@ -71,24 +71,38 @@ class Quantiser(nn.Module):
 
         Losses are means over the quantised cells, and 0 where there are none.
         """
-        features = features.float()
         picked = torch.ones_like(occupied) if self.config.mode == "dense" else occupied
-        found = features[picked]
-        with torch.autocast(features.device.type, enabled=False):  # distances need float32
+        found = self.quantise(features[picked])
+        vectors = self._empty(picked).index_put((picked,), found.vectors)
+        return replace(found, vectors=vectors, codes=self.on_grid(found.codes, picked))
+
+    def quantise(self, found: Tensor) -> Quantised:
+        """As `forward`, of (K, D) features alone: (K, D) vectors and (K,) codes."""
+        found = found.float()
+        with torch.autocast(found.device.type, enabled=False):  # distances need float32
             rows = nearest(found.detach(), self.entries.detach())
         chosen = self.entries[rows]
         codebook_loss = mean_squared(chosen, found.detach())
         if self.config.codebook_update == "ema":
             codebook_loss = torch.zeros_like(codebook_loss)
         # In this order the sum is exactly the entry, so that decoding the codes gives the same logits.
-        straight_through = chosen.detach() + (found - found.detach())
-        vectors = self._empty(picked).index_put((picked,), straight_through)
-        codes = torch.full(picked.shape, self.first_code - 1, dtype=torch.int64, device=picked.device)
-        codes[picked] = rows + self.first_code
+        vectors = chosen.detach() + (found - found.detach())
+        codes = rows + self.first_code
         return Quantised(vectors, codes, codebook_loss, mean_squared(found, chosen.detach()))
 
+    def on_grid(self, codes: Tensor, picked: Tensor) -> Tensor:
+        """(K,) codes of the K cells that (B, X, Y, Z) marks, to (B, X, Y, Z) with 0 or -1 elsewhere."""
+        grid = torch.full(picked.shape, self.first_code - 1, dtype=torch.int64, device=picked.device)
+        grid[picked] = codes
+        return grid
+
     def lookup(self, codes: Tensor) -> Tensor:
-        """(B, X, Y, Z) codes to (B, X, Y, Z, D) vectors.
+        """(B, X, Y, Z) codes to (B, X, Y, Z, D) vectors; raises BadInputError as `entries_of` does."""
+        picked = codes >= self.first_code
+        return self._empty(picked).index_put((picked,), self.entries_of(codes, picked))
+
+    def entries_of(self, codes: Tensor, picked: Tensor) -> Tensor:
+        """(K, D) entries of (B, X, Y, Z) codes, at the K cells that (B, X, Y, Z) marks.
 
         Raises:
             BadInputError: a code is not in the codebook.
@@ -100,8 +114,7 @@ class Quantiser(nn.Module):
                 f"code {wrong[0].item()} is not in the codebook: "
                 f"this model's codes are {lowest}..{self.config.codebook_size - 1}"
             )
-        picked = codes >= self.first_code
-        return self._empty(picked).index_put((picked,), self.entries[codes[picked] - self.first_code])
+        return self.entries[codes[picked] - self.first_code]
 
     @torch.no_grad()
     def initialise(self, vectors: Tensor, generator: torch.Generator) -> None:
@@ -120,7 +133,7 @@ class Quantiser(nn.Module):
         at most once; entries left over wait for the next step.
 
         Args:
-            features: (B, X, Y, Z, D) what the encoder gave.
+            features: (B, X, Y, Z, D) what the encoder gave, or (K, D) in the cells with a token alone.
             codes: (B, X, Y, Z) what `forward` made of it.
             generator: on the CPU, so that all devices draw alike.
 
@@ -128,7 +141,7 @@ class Quantiser(nn.Module):
             Number of entries revived.
         """
         picked = codes >= self.first_code
-        found = features[picked].float()
+        found = (features if features.ndim == 2 else features[picked]).float()
         counts, sums = tally(found, codes[picked] - self.first_code, len(self.entries))
         if self.config.codebook_update == "ema":
             self._move_entries(counts, sums)
@@ -137,7 +150,7 @@ class Quantiser(nn.Module):
 
     def _empty(self, picked: Tensor) -> Tensor:
         """(B, X, Y, Z, D) vectors as if no cell had geometry."""
-        shape = (*picked.shape, self.config.token_channels)
+        shape = (*picked.shape, self.config.vector_length)
         if self.zero_token is None:
             return torch.zeros(shape, device=self.entries.device)
         return self.zero_token.expand(shape)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
-from .config import VqvaeConfig
+from .config import CodebookConfig
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Usage:
     perplexity: float
 
 
-def count_codes(codes: Tensor, config: VqvaeConfig) -> Tensor:
+def count_codes(codes: Tensor, config: CodebookConfig) -> Tensor:
     """(entries,) int64 occurrences of each code in codes of any shape; counts of batches add up."""
     geometry = codes[codes >= config.first_code] - config.first_code
     return torch.bincount(geometry, minlength=config.codebook_size - config.first_code)
