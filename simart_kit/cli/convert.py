@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from .common import load_plugins, print_json, stdout_kept, warn
 from .options import Json, PluginFiles, Sets, Verbose
+
+if TYPE_CHECKING:
+    from ..plugins import Plugins
 
 RecipeName = Annotated[
     str, typer.Option("--recipe", "-r", metavar="NAME|FILE", help="Recipe; see `recipes list`.")
@@ -23,6 +27,15 @@ Up = Annotated[
 Unit = Annotated[
     str | None, typer.Option(metavar="mm|cm|m|in|ft|NUMBER", help="The file's unit, or metres a unit.")
 ]
+TransferMode = Annotated[
+    Literal["seeds", "segments"] | None,
+    typer.Option(
+        "--transfer",
+        metavar="seeds|segments",
+        help="For segmenters that decode voxels, such as tokens: label each face by itself, or also each "
+        "segment whose faces agree. Short for --set segmenter.options.transfer=...",
+    ),
+]
 
 
 def convert(
@@ -33,6 +46,7 @@ def convert(
         str | None, typer.Option(metavar="NAME", help="Name of the asset; default: the file's.")
     ] = None,
     sets: Sets = None,
+    transfer: TransferMode = None,
     up: Up = None,
     unit: Unit = None,
     height: Annotated[float | None, typer.Option(metavar="M", help="Real height of the object [m].")] = None,
@@ -62,12 +76,13 @@ def convert(
             warn(f"plugin {failure}" for failure in plugins.failures)
         with progress(quiet) as observer:
             plugins.register(observer)
+            _check_transfer(transfer, recipe, sets or (), plugins)
             result = run(
                 mesh,
                 recipe,
                 out=out,
                 name=name,
-                sets=sets or (),
+                sets=[*(sets or ()), *_transfer_sets(transfer)],
                 up=up,
                 unit=unit,
                 height=height,
@@ -80,3 +95,23 @@ def convert(
         print_json(document(result))
     elif not quiet:
         print(text(result, verbose))
+
+
+def _transfer_sets(transfer: str | None) -> list[str]:
+    return [] if transfer is None else [f'segmenter.options.transfer="{transfer}"']
+
+
+def _check_transfer(transfer: str | None, recipe: str, sets: Sequence[str], plugins: Plugins) -> None:
+    """Say what `--transfer` is for where the recipe's segmenter has no such option."""
+    if transfer is None:
+        return
+    from ..errors import BadInputError
+    from ..recipe import load_recipe
+    from ..stages import Segmenter
+
+    use = load_recipe(recipe, plugins, sets).segmenter.use
+    if "transfer" not in plugins.find(Segmenter.kind, use).value.Options.model_fields:
+        raise BadInputError(
+            f"--transfer {transfer}: segmenter '{use}' decodes no voxels; "
+            "use it with one that does, such as --recipe tokens"
+        )
