@@ -29,6 +29,16 @@ class RegisterRecipe(Protocol):
     def __call__(self, name: str, path: Path, /) -> None: ...
 
 
+class RegisterCommand(Protocol):
+    """What `register_commands` is called with.
+
+    Takes the command's name ("tokens", or "train vqvae" for one in a group), where its function is
+    ("package.module:function") and a line on what it does.
+    """
+
+    def __call__(self, name: str, target: str, help: str) -> None: ...
+
+
 @hookspec
 def register_segmenters(register: Register) -> None:
     """Register Segmenter classes: `register(MySegmenter)`."""
@@ -52,6 +62,14 @@ def register_exporters(register: Register) -> None:
 @hookspec
 def register_recipes(register: RegisterRecipe) -> None:
     """Register recipe files that the plugin ships: `register("mine", path)`."""
+
+
+@hookspec
+def register_commands(register: RegisterCommand) -> None:
+    """Register commands: `register("train mine", "package.module:function", "Train mine.")`.
+
+    The function's module is imported when the command is used, and not before.
+    """
 
 
 @hookspec(firstresult=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import os
 import traceback
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from importlib.metadata import EntryPoint, entry_points, version
 from pathlib import Path
@@ -14,6 +14,7 @@ from typing import Any
 import pluggy
 
 from . import hookspecs
+from .commands import PluginCommand, checked_name
 from .errors import AmbiguousPluginError, PluginError, StageError, UnknownPluginError
 from .plugin_import import import_plugin
 from .stages import Exporter, JointPredictor, Modifier, Options, Segmenter, Stage
@@ -23,6 +24,7 @@ DEFAULT_PLUGINS = (
     "simart_kit_plugins.loaders.usd_loader",
     "simart_kit_plugins.geometric",
     "simart_kit_plugins.hints",
+    "simart_kit_plugins.simart",
     "simart_kit_plugins.modifiers.scale",
     "simart_kit_plugins.modifiers.snap",
     "simart_kit_plugins.modifiers.sweep",
@@ -33,6 +35,8 @@ DEFAULT_PLUGINS = (
     "simart_kit_exporters.usd",
     "simart_kit_plugins.recorder:Recorder",
 )
+# Those of them with commands: all that the command line imports to list its commands.
+COMMAND_PLUGINS = ("simart_kit_plugins.simart",)
 STAGE_HOOKS: dict[str, type[Stage]] = {
     "register_segmenters": Segmenter,
     "register_joint_predictors": JointPredictor,
@@ -61,12 +65,12 @@ class Owner:
 
 @dataclass(frozen=True)
 class Registration:
-    """A stage class or a recipe file under its name.
+    """A stage class, a recipe file or a command under its name.
 
     Attributes:
-        kind: "segmenter", "joint predictor", "modifier", "exporter" or "recipe".
-        name: what recipes call it.
-        value: the class, or the recipe's path.
+        kind: "segmenter", "joint predictor", "modifier", "exporter", "recipe" or "command".
+        name: what recipes call it, or what is typed.
+        value: the class, the recipe's path, or a `PluginCommand`.
         owner: where it came from.
     """
 
@@ -111,6 +115,7 @@ class Plugins:
             SIMART_STRICT_PLUGINS is "1".
         files: Python files to load as plugins besides.
         installed: whether to look for installed third-party plugins at all.
+        commands_only: leave out what built-in plugins have besides commands, for a quick start.
 
     Attributes:
         manager: the pluggy manager, for tests that register objects directly.
@@ -124,11 +129,12 @@ class Plugins:
         strict: bool | None = None,
         files: Iterable[Path] = (),
         installed: bool = True,
+        commands_only: bool = False,
     ) -> None:
         chosen = os.environ.get("SIMART_LOAD_PLUGINS")
         if load is None and chosen is not None:
             load = [name.strip() for name in chosen.split(",") if name.strip()]
-        self._wanted = None if load is None else set(load)
+        wanted = None if load is None else set(load)
         self._strict = os.environ.get("SIMART_STRICT_PLUGINS") == "1" if strict is None else strict
         self.manager = pluggy.PluginManager("simart_kit")
         self.manager.add_hookspecs(hookspecs)
@@ -136,16 +142,16 @@ class Plugins:
         self._registrations: list[Registration] = []
         self._owners: dict[int, Owner] = {}
         own_version = version("simart-kit")
-        for name in DEFAULT_PLUGINS:
-            self._load(Owner(name, "built in", own_version), name)
+        for name in COMMAND_PLUGINS if commands_only else DEFAULT_PLUGINS:
+            self._load(Owner(name, "built in", own_version), name, commands_only)
         for point in _entry_points() if installed else ():
-            if self._wanted is None or point.name in self._wanted:
+            if wanted is None or point.name in wanted:
                 dist = point.dist
                 self._load(Owner(point.name, dist.name if dist else "?", dist.version if dist else ""), point)
         for file in files:
             self._load(Owner(file.stem, str(file), ""), file)
 
-    def register(self, plugin: object, owner: Owner | None = None) -> None:
+    def register(self, plugin: object, owner: Owner | None = None, *, commands_only: bool = False) -> None:
         """Add a plugin object; raises what its registration raises. Tests use this with fakes."""
         owner = owner or Owner(getattr(plugin, "__name__", type(plugin).__name__), "registered object", "")
         if self.manager.is_registered(plugin):
@@ -153,7 +159,7 @@ class Plugins:
         try:
             self.manager.register(plugin, name=f"{owner.plugin}-{id(plugin)}")
             self.manager.check_pending()
-            pending = self._collect(plugin, owner)
+            pending = self._collect(plugin, owner, commands_only)
         except Exception:
             if self.manager.is_registered(plugin):
                 self.manager.unregister(plugin)
@@ -205,12 +211,13 @@ class Plugins:
             groups.setdefault((registration.kind, registration.name), []).append(registration)
         return tuple(tuple(group) for group in groups.values() if len(group) > 1)
 
-    def _load(self, owner: Owner, source: str | EntryPoint | Path) -> None:
+    def _load(self, owner: Owner, source: str | EntryPoint | Path, commands_only: bool = False) -> None:
         phase = "import"
         try:
             plugin = import_plugin(source)
             phase = "registration"
-            self.register(plugin() if isinstance(plugin, type) else plugin, owner)
+            made = plugin() if isinstance(plugin, type) else plugin
+            self.register(made, owner, commands_only=commands_only)
         except (Exception, SystemExit) as error:
             text = " ".join(str(error).split()) or type(error).__name__
             failure = Failure(owner, phase, f"{type(error).__name__}: {text}", traceback.format_exc())
@@ -218,18 +225,23 @@ class Plugins:
                 raise PluginError(f"plugin {failure}") from error
             self.failures += (failure,)
 
-    def _collect(self, plugin: object, owner: Owner) -> list[Registration]:
+    def _collect(self, plugin: object, owner: Owner, commands_only: bool) -> list[Registration]:
         """Call the plugin's own register hooks; nothing is kept if one raises."""
         pending: list[Registration] = []
-        for hook, base in STAGE_HOOKS.items():
+        registers: dict[str, Callable[..., None]] = {}
+        if not commands_only:
+            for hook, base in STAGE_HOOKS.items():
+                registers[hook] = lambda stage, base=base: pending.append(_checked(stage, base, owner))
+            registers["register_recipes"] = lambda name, path: pending.append(
+                Registration("recipe", name, Path(path), owner)
+            )
+        registers["register_commands"] = lambda name, target, help: pending.append(
+            Registration("command", checked_name(name, str(owner)), PluginCommand(target, help), owner)
+        )
+        for hook, register in registers.items():
             implementation = self._implementation(plugin, hook)
             if implementation:
-                implementation(register=lambda stage, base=base: pending.append(_checked(stage, base, owner)))
-        recipes = self._implementation(plugin, "register_recipes")
-        if recipes:
-            recipes(
-                register=lambda name, path: pending.append(Registration("recipe", name, Path(path), owner))
-            )
+                implementation(register=register)
         return pending
 
     def _implementation(self, plugin: object, hook: str) -> Any:

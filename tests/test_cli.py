@@ -205,7 +205,7 @@ def test_a_failed_json_run_is_one_document_too(home, capfd):
         (["check", "nowhere"], 2, "has no asset.json"),
         (["inspect", "."], 2, "has no recording"),
         (["recipes", "check", "nobody"], 2, "unknown recipe 'nobody'"),
-        (["plugins", "show", "nobody"], 2, "unknown stage 'nobody'"),
+        (["plugins", "show", "nobody"], 2, "unknown stage or command 'nobody'"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else None,
 )

@@ -12,6 +12,7 @@ from .common import help_when_alone
 from .convert import convert
 from .export import export
 from .inspect import inspect
+from .plugin_commands import PluginGroup
 from .version import print_version, version
 
 EPILOG = (
@@ -21,6 +22,7 @@ EPILOG = (
 
 app = typer.Typer(
     name="simart-kit",
+    cls=PluginGroup,
     help="Turn a static 3D mesh into a simulation-ready articulated asset: URDF, MJCF and USD.",
     epilog=EPILOG,
     # Rich help takes longer to load than all the rest of the command line.

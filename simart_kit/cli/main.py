@@ -60,8 +60,9 @@ def _run(arguments: Sequence[str], flags: Flags) -> int:
     except BrokenPipeError:
         raise
     except Exception as error:
+        where = f" in plugin {flags.owner}" if flags.owner else ""
         advice = "" if flags.verbose else "; run with -v for the traceback, and please report it"
-        return _told(f"unexpected {type(error).__name__}: {error}{advice}", FAILED, flags)
+        return _told(f"unexpected {type(error).__name__}{where}: {error}{advice}", FAILED, flags)
     return 0
 
 

@@ -4,22 +4,29 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from ..plugins import Owner, Plugins
 
 
 @dataclass
 class Flags:
-    """How errors are told; filled in while a command line is parsed.
+    """What is found out while a command line is parsed, above all how errors are told.
 
     Attributes:
         verbose: with a traceback.
         json: also as a JSON document.
+        plugins: those that may have commands, once the command line has looked for some.
+        owner: the plugin whose command runs; None for the core's own.
     """
 
     verbose: bool = False
     json: bool = False
+    plugins: Plugins | None = None
+    owner: Owner | None = None
 
 
 def _note_verbose(context: typer.Context, value: bool) -> bool:

@@ -26,7 +26,7 @@ def list_plugins(
     ] = False,
     verbose: Verbose = False,
 ) -> None:
-    """All stages, loaders and observers.
+    """All stages, commands, loaders and observers.
 
     Each with the plugin that it comes from; and what did not load.
     """
@@ -44,31 +44,41 @@ def list_plugins(
 
 @app.command()
 def show(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="Name of a stage, such as usd.")],
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Name of a stage or command, such as usd.")],
     plugin: PluginFiles = None,
     json: Json = False,
     verbose: Verbose = False,
 ) -> None:
-    """What a stage does, and its options with type, default and meaning."""
+    """What a stage does, and its options with type, default and meaning.
+
+    Of a command, what it does; its options are in its own help.
+    """
     from ..errors import UnknownPluginError
     from ..plugins import Plugins
 
     with stdout_kept(json):
         plugins = Plugins(files=plugin or ())
-    stages = [r for r in plugins.registrations() if r.kind != "recipe"]
-    found = [r for r in stages if r.name == name]
+    known = [r for r in plugins.registrations() if r.kind != "recipe"]
+    found = [r for r in known if r.name == name]
     if not found:
-        raise UnknownPluginError("stage", name, {r.name for r in stages}, map(str, plugins.failures))
+        raise UnknownPluginError(
+            "stage or command", name, {r.name for r in known}, map(str, plugins.failures)
+        )
     if json:
-        print_json([_row(registration) | {"options": _options(registration)} for registration in found])
+        print_json([_row(registration) | _details(registration) for registration in found])
         return
     for registration in found:
         print(f"{registration.kind} {registration.name}, from {registration.owner}\n")
-        print(inspect.getdoc(registration.value) or "", end="\n\n")
-        options = [tuple(row.values()) for row in _options(registration)]
-        print_rows(
-            [("option", "type", "default", "meaning"), *options] if options else [("no options",)], "  "
-        )
+        if registration.kind == "command":
+            print(f"{registration.value.help}\n\n  simart-kit {name} --help")
+        else:
+            _print_stage(registration)
+
+
+def _print_stage(registration: Registration) -> None:
+    print(inspect.getdoc(registration.value) or "", end="\n\n")
+    options = [tuple(row.values()) for row in _options(registration)]
+    print_rows([("option", "type", "default", "meaning"), *options] if options else [("no options",)], "  ")
 
 
 def _print(plugins: Plugins, verbose: bool) -> None:
@@ -100,6 +110,12 @@ def _document(plugins: Plugins) -> dict[str, Any]:
 
 def _row(registration: Registration) -> dict[str, str]:
     return {"kind": registration.kind, "name": registration.name, **vars(registration.owner)}
+
+
+def _details(registration: Registration) -> dict[str, Any]:
+    if registration.kind == "command":
+        return {"target": registration.value.target, "help": registration.value.help}
+    return {"options": _options(registration)}
 
 
 def _options(registration: Registration) -> list[dict[str, str]]:

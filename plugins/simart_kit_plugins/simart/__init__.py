@@ -1,1 +1,37 @@
 """The paper's method: a sparse 3D VQ-VAE, voxel tokens, and a language model that reads and writes them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from simart_kit.hookspecs import hookimpl
+
+if TYPE_CHECKING:
+    from simart_kit.hookspecs import Register, RegisterCommand
+
+_COMMANDS = "simart_kit_plugins.simart.commands"
+
+
+@hookimpl
+def register_segmenters(register: Register) -> None:
+    """Register `tokens`."""
+    from .tokens_segmenter import Tokens
+
+    register(Tokens)
+
+
+@hookimpl
+def register_commands(register: RegisterCommand) -> None:
+    """Register `tokens`, `train vqvae`, `model import-trellis` and `bench vqvae`."""
+    register("tokens", f"{_COMMANDS}.tokens:tokens", "Count the voxel tokens of a mesh and write them.")
+    register("train vqvae", f"{_COMMANDS}.train_vqvae:train_vqvae", "Train a sparse 3D VQ-VAE.")
+    register(
+        "model import-trellis",
+        f"{_COMMANDS}.import_trellis:import_trellis",
+        "Make a sparse 3D VQ-VAE of TRELLIS' weights.",
+    )
+    register(
+        "bench vqvae",
+        f"{_COMMANDS}.bench_vqvae:bench_vqvae",
+        "Compare configurations of the sparse 3D VQ-VAE.",
+    )
