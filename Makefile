@@ -13,6 +13,8 @@ COG := COLUMNS=80 $(BIN)/cog
 SCHEMA := $(BIN)/python -c 'from simart_kit import asset_schema, describe; \
 	print(describe.schema_text(asset_schema.AssetTable), end="")'
 WHEEL := build/wheel
+# A process for each processor; one that runs out of tests takes those of another.
+PARALLEL := -n auto --dist worksteal
 
 .PHONY: help demo test slow check lint types docs docs-check fmt wheel bench browser clean
 .DEFAULT_GOAL := help
@@ -23,8 +25,10 @@ help:  ## List the targets.
 demo: $(APP)  ## Convert the example cabinet to URDF, MJCF and USD.
 	$(BIN)/simart-kit convert examples/cabinet.glb --out out/cabinet
 
-test: $(DEV)  ## Run the tests and report what they cover of the core.
-	$(BIN)/coverage run -m pytest
+test: $(DEV)  ## Run the tests, on all processors, and report what they cover of the core.
+	$(BIN)/coverage erase
+	$(BIN)/coverage run -m pytest $(PARALLEL)
+	$(BIN)/coverage combine --quiet
 	$(BIN)/coverage report
 
 slow: $(DEV)  ## Run the tests that take long: the full-size model.
@@ -58,7 +62,7 @@ wheel: $(DEV)  ## Build a wheel from the sdist and run the tests against it in a
 	$(PYTHON) -m venv $(WHEEL)/venv
 	$(WHEEL)/venv/bin/python -m pip install --quiet --constraint constraints.txt "$$(echo dist/*.whl)[test]"
 	cp -r tests docs examples README.md pyproject.toml $(WHEEL)
-	cd $(WHEEL) && venv/bin/pytest
+	cd $(WHEEL) && venv/bin/pytest $(PARALLEL)
 
 bench: $(APP)  ## Time conversions, the scoring of 100 objects, label transfer and voxelisation.
 	$(BIN)/python tests/bench.py

@@ -76,6 +76,11 @@ class Nosy(fakes.FakeObserver):
         register("of_a_plugin", self.recipe)
 
     @sk.hookimpl
+    def register_commands(self, register: hookspecs.RegisterCommand) -> None:
+        self.called.add("register_commands")
+        register("nosy", "nosy:main", "Look at everything.")
+
+    @sk.hookimpl
     def load_mesh(self, path: Path) -> sk.Mesh | None:
         self.called.add("load_mesh")
         return meshes.cabinet_mesh() if path.suffix == ".nosy" else None
