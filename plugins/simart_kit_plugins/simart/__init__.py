@@ -22,13 +22,19 @@ def register_segmenters(register: Register) -> None:
 
 @hookimpl
 def register_commands(register: RegisterCommand) -> None:
-    """Register `tokens`, `train vqvae`, `model import-trellis` and `bench vqvae`."""
+    """Register `tokens`, `train vqvae`, `bench vqvae`, and what is done with models."""
     register("tokens", f"{_COMMANDS}.tokens:tokens", "Count the voxel tokens of a mesh and write them.")
     register("train vqvae", f"{_COMMANDS}.train_vqvae:train_vqvae", "Train a sparse 3D VQ-VAE.")
     register(
         "model import-trellis",
         f"{_COMMANDS}.import_trellis:import_trellis",
         "Make a sparse 3D VQ-VAE of TRELLIS' weights.",
+    )
+    register("model evaluate", f"{_COMMANDS}.evaluate_model:evaluate_model", "Score a voxel model.")
+    register(
+        "model shrink",
+        f"{_COMMANDS}.shrink_model:shrink_model",
+        "Write a model in half precision, for shipping.",
     )
     register(
         "bench vqvae",

@@ -46,7 +46,7 @@ def training_grids(
         raise BadInputError("there is nothing to train on: give --data DIR, --procedural N, or both")
     if seed >= HELD_OUT_SEED:
         raise BadInputError(f"seed {seed} is not below {HELD_OUT_SEED}, the seed of the held-out objects")
-    found = [_folder_grids(folder, resolution, plugins, progress) for folder in folders]
+    found = [folder_grids(folder, resolution, plugins, progress) for folder in folders]
     if generated:
         found.append(_generated(generated, seed, resolution, "objects made", progress))
     return joined(found)
@@ -57,13 +57,12 @@ def held_out_grids(count: int, resolution: int, progress: Progress) -> Grids:
     return _generated(count, HELD_OUT_SEED, resolution, "held-out objects made", progress)
 
 
-def voxel_cache() -> Path:
-    """The folder that keeps voxels: simart-kit/voxels in $XDG_CACHE_HOME, or in ~/.cache."""
-    base = os.environ.get("XDG_CACHE_HOME")
-    return (Path(base) if base else Path.home() / ".cache") / "simart-kit" / "voxels"
+def folder_grids(folder: Path, resolution: int, plugins: Plugins, progress: Progress) -> Grids:
+    """The grids of a folder; what cannot be used is a warning.
 
-
-def _folder_grids(folder: Path, resolution: int, plugins: Plugins, progress: Progress) -> Grids:
+    Raises:
+        BadInputError: there is no such folder, or nothing in it can be used.
+    """
     data = voxel_data(
         folder, resolution, voxel_cache(), plugins, lambda done, of: progress(f"shapes of {folder}", done, of)
     )
@@ -71,6 +70,12 @@ def _folder_grids(folder: Path, resolution: int, plugins: Plugins, progress: Pro
     warn(data.skipped[:_TOLD])
     warn([f"{more} more shapes of {folder} could not be used"] if more > 0 else [])
     return data.grids
+
+
+def voxel_cache() -> Path:
+    """The folder that keeps voxels: simart-kit/voxels in $XDG_CACHE_HOME, or in ~/.cache."""
+    base = os.environ.get("XDG_CACHE_HOME")
+    return (Path(base) if base else Path.home() / ".cache") / "simart-kit" / "voxels"
 
 
 def _generated(count: int, seed: int, resolution: int, task: str, progress: Progress) -> Grids:

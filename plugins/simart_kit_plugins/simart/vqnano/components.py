@@ -26,7 +26,7 @@ def fit_components(model: VqNano, batches: Iterable[Tensor]) -> None:
         model: changed in place.
         batches: (B, 1, R, R, R) voxels; read until there are enough blocks.
     """
-    mean, covariance, count = _moments(model, batches)
+    mean, covariance = _moments(model, batches)
     variance, directions = torch.linalg.eigh(covariance)
     kept = directions.flip(1)[:, : model.config.vector_length].float()
     scale = variance[-1].clamp(min=1e-12).rsqrt().item()
@@ -37,8 +37,8 @@ def fit_components(model: VqNano, batches: Iterable[Tensor]) -> None:
     decoder.bias.copy_(_SLOPE * (mean.float() - 0.5))
 
 
-def _moments(model: VqNano, batches: Iterable[Tensor]) -> tuple[Tensor, Tensor, int]:
-    """(n,) mean and (n, n) covariance of the voxels of occupied blocks, and how many there were; float64."""
+def _moments(model: VqNano, batches: Iterable[Tensor]) -> tuple[Tensor, Tensor]:
+    """(n,) mean and (n, n) covariance of the voxels of occupied blocks; float64."""
     size = model.config.block_voxels
     total = torch.zeros(size, dtype=torch.float64)
     squares = torch.zeros(size, size, dtype=torch.float64)
@@ -52,4 +52,4 @@ def _moments(model: VqNano, batches: Iterable[Tensor]) -> tuple[Tensor, Tensor, 
         if count >= _BLOCKS:
             break
     mean = total / max(count, 1)
-    return mean, squares / max(count, 1) - torch.outer(mean, mean), count
+    return mean, squares / max(count, 1) - torch.outer(mean, mean)

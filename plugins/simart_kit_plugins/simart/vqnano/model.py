@@ -127,7 +127,7 @@ class VqNano(nn.Module):
         return [*self.quantiser.parameters(), *self.decoder.parameters()]
 
     def _blocks(self, occupancy: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        """(B, X, Y, Z, n) bool blocks of (B, 1, R, R, R) voxels; which are occupied, and which get a token."""
+        """(B, X, Y, Z, n) bool blocks of (B, 1, R, R, R) voxels; which are occupied, which get a token."""
         require_grid(occupancy, self.config)
         blocks = block_view(occupancy > 0, self.config.cells).flatten(4)
         occupied = blocks.any(-1)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from torch import Tensor
+
 from simart_kit.errors import OutputError
 
 from ..models import VoxelModel, build_model
@@ -14,10 +16,15 @@ CONFIG_FILE = "config.json"
 WEIGHTS_FILE = "model.safetensors"
 
 
-def save_checkpoint(model: VoxelModel, folder: Path) -> Path:
+def save_checkpoint(model: VoxelModel, folder: Path, half: bool = False) -> Path:
     """Write the folder (the same weights give the same bytes) and return it.
 
     The weights are put in place in one move: a save that is interrupted leaves the earlier file whole.
+
+    Args:
+        model: on any device.
+        folder: made where it is missing.
+        half: store numbers in half precision; `load_checkpoint` makes them float32 again.
 
     Raises:
         OutputError: the folder cannot be written.
@@ -25,7 +32,7 @@ def save_checkpoint(model: VoxelModel, folder: Path) -> Path:
     from safetensors import SafetensorError
     from safetensors.torch import save_file
 
-    tensors = {name: tensor.detach().cpu().contiguous() for name, tensor in model.state_dict().items()}
+    tensors = {name: _stored(tensor, half) for name, tensor in model.state_dict().items()}
     partial = folder / f"{WEIGHTS_FILE}.partial"
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -48,3 +55,8 @@ def load_checkpoint(folder: str | Path) -> VoxelModel:
     advice = f"give the {WEIGHTS_FILE} that was saved with this {CONFIG_FILE}"
     model.load_state_dict(read_tensors(folder / WEIGHTS_FILE, model.state_dict(), advice))
     return model
+
+
+def _stored(tensor: Tensor, half: bool) -> Tensor:
+    tensor = tensor.detach().cpu().contiguous()
+    return tensor.half() if half and tensor.is_floating_point() else tensor
