@@ -12,7 +12,7 @@ from simart_kit.arrays import BoolArray
 
 from ..models import VoxelModel
 from ..token_counts import TokenCounts, token_counts
-from ..training.grids import Grids
+from ..training.grids import Grids, objects_of
 from .coding import coding_without
 
 Cells = tuple[int, int, int]
@@ -55,19 +55,6 @@ def lengths(grids: Grids, cells: Cells, kept: BoolArray | None) -> Lengths:
         _sum([counts[row] for row in parts]),
         kept is not None,
     )
-
-
-def objects_of(names: Sequence[str]) -> list[list[int]]:
-    """Rows of each object, its whole first, by their names: "NAME part 1" or "NAME, part 1" is of NAME."""
-    objects: list[list[int]] = []
-    for row, name in enumerate(names):
-        whole = names[objects[-1][0]] if objects else ""
-        of_it = name.removeprefix(whole).removeprefix(",") if whole and name.startswith(whole) else ""
-        if of_it.startswith(" part ") and of_it[6:].isdigit():
-            objects[-1].append(row)
-        else:
-            objects.append([row])
-    return objects
 
 
 def cells_kept(model: VoxelModel, grids: Grids, code: int) -> BoolArray:

@@ -65,6 +65,19 @@ def unpack(packed: ByteArray, resolution: int) -> BoolArray:
     return bits.reshape(*packed.shape[:-1], *(resolution,) * 3).astype(np.bool_)
 
 
+def objects_of(names: Sequence[str]) -> list[list[int]]:
+    """Rows of each object, its whole first, by their names: "NAME part 1" or "NAME, part 1" is of NAME."""
+    objects: list[list[int]] = []
+    for row, name in enumerate(names):
+        whole = names[objects[-1][0]] if objects else ""
+        of_it = name.removeprefix(whole).removeprefix(",") if whole and name.startswith(whole) else ""
+        if of_it.startswith(" part ") and of_it[6:].isdigit():
+            objects[-1].append(row)
+        else:
+            objects.append([row])
+    return objects
+
+
 def joined(several: Sequence[Grids]) -> Grids:
     """All grids in one, such as generated ones and a folder's.
 

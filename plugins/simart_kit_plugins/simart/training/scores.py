@@ -9,10 +9,9 @@ import numpy as np
 
 from simart_kit.arrays import BoolArray
 
-from ..ablation.lengths import objects_of
 from ..models import VoxelModel
 from .evaluation import Evaluation, evaluate
-from .grids import Grids
+from .grids import Grids, objects_of
 
 
 @dataclass(frozen=True)
