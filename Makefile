@@ -16,7 +16,7 @@ WHEEL := build/wheel
 # A process for each processor; one that runs out of tests takes those of another.
 PARALLEL := -n auto --dist worksteal
 
-.PHONY: help demo test slow check lint types docs docs-check fmt wheel bench browser clean
+.PHONY: help demo test coverage slow check lint types docs docs-check fmt wheel bench browser clean
 .DEFAULT_GOAL := help
 
 help:  ## List the targets.
@@ -25,7 +25,10 @@ help:  ## List the targets.
 demo: $(APP)  ## Convert the example cabinet to URDF, MJCF and USD.
 	$(BIN)/simart-kit convert examples/cabinet.glb --out out/cabinet
 
-test: $(DEV)  ## Run the tests, on all processors, and report what they cover of the core.
+test: $(DEV)  ## Run the tests, on all processors.
+	$(BIN)/pytest $(PARALLEL)
+
+coverage: $(DEV)  ## The same, more slowly, and report what they cover of the core.
 	$(BIN)/coverage erase
 	$(BIN)/coverage run -m pytest $(PARALLEL)
 	$(BIN)/coverage combine --quiet
