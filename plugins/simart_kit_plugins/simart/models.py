@@ -21,18 +21,16 @@ class ModelKind:
 
     Attributes:
         name: in config files.
-        config: its table.
-        model: what is built from a config and a seed.
+        config: its table; `build_model` builds what it describes.
     """
 
     name: str
     config: type[VqvaeConfig] | type[VqNanoConfig]
-    model: type[SparseVQVAE] | type[VqNano]
 
 
 KINDS = (
-    ModelKind("sparse-vqvae", VqvaeConfig, SparseVQVAE),
-    ModelKind("vq-nano", VqNanoConfig, VqNano),
+    ModelKind("sparse-vqvae", VqvaeConfig),
+    ModelKind("vq-nano", VqNanoConfig),
 )
 
 

@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 
 from simart_kit.errors import BadInputError, OutputError
 
+from .tables import Table, told
 from .token_parser import parse
 from .tokens import TokenGrid, VoxelTokens
 
@@ -70,18 +71,14 @@ class TokensFile:
                 raise BadInputError(f"part '{part.name}' has cell {foreign[0]}, which the object has not")
 
 
-class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-
-
-class _PartRow(_Table):
+class _PartRow(Table):
     name: str = Field(min_length=1)
     label: str = ""
     material: str = "wood"
     tokens: str
 
 
-class _FileTable(_Table):
+class _FileTable(Table):
     version: Literal[1] = Field(alias="schema")
     grid: Literal["8x8x8", "16x8x8"]
     codebook: int
@@ -172,8 +169,7 @@ def _read(path: Path) -> _FileTable:
             f"cannot read tokens file {path}: {error.strerror}: write one with `simart-kit tokens MESH --out`"
         ) from error
     except ValidationError as error:
-        told = "; ".join(f"{'.'.join(map(str, e['loc'])) or 'file'}: {e['msg']}" for e in error.errors())
-        raise BadInputError(f"{path} is no tokens file: {told}") from error
+        raise BadInputError(f"{path} is no tokens file: {told(error)}") from error
 
 
 def _require_names(names: Sequence[str]) -> None:

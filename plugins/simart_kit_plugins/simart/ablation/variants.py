@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from simart_kit.errors import BadInputError
 
 from ..models import VoxelConfig
-from ..training.config import told
+from ..tables import told
 
 ZERO, FORCE_SPARSE, DENSE = "zero", "force-sparse", "dense"
 

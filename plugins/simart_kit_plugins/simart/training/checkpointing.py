@@ -23,10 +23,11 @@ from torch.optim import AdamW
 from simart_kit.errors import BadInputError, OutputError
 
 from ..models import VoxelModel
+from ..tables import told
 from ..vqvae.checkpoint import CONFIG_FILE, WEIGHTS_FILE, save_checkpoint
 from ..vqvae.config_file import read_config
 from ..vqvae.weights import read_tensors
-from .config import TrainingConfig, told
+from .config import TrainingConfig
 from .optimiser import load_optimiser_tensors, optimiser_tensors, stage_optimiser
 
 FOLDER = "checkpoints"

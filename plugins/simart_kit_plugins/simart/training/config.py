@@ -6,18 +6,16 @@ import math
 from pathlib import Path
 from typing import Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import Field, ValidationError, model_validator
 
 from simart_kit.errors import BadInputError, OutputError
+
+from ..tables import Table, told
 
 Stage = Literal[1, 2]
 
 
-class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
-
-
-class TrainingConfig(_Table):
+class TrainingConfig(Table):
     """Schedule and optimiser of `train`.
 
     The paper gives the two stages of 60 000 steps and no more; the rest follows TRELLIS' training of the same
@@ -82,7 +80,7 @@ class TrainingConfig(_Table):
         return self.learning_rate * (1 + math.cos(math.pi * share)) / 2
 
 
-class _ConfigFile(_Table):
+class _ConfigFile(Table):
     """The JSON file."""
 
     schema_version: Literal[1] = Field(alias="schema")
@@ -114,8 +112,3 @@ def read_training_config(path: Path) -> TrainingConfig:
         raise BadInputError(f"cannot read {path}: {error.strerror}; give a training config") from error
     except ValidationError as error:
         raise BadInputError(f"{path} is no training config: {told(error)}") from error
-
-
-def told(error: ValidationError) -> str:
-    """Every wrong field and what is wrong with it, on one line."""
-    return "; ".join(f"{'.'.join(map(str, e['loc'])) or 'file'}: {e['msg']}" for e in error.errors())

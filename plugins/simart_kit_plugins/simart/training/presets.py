@@ -9,13 +9,14 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 
 from simart_kit.errors import BadInputError
 
 from ..models import VoxelConfig, VoxelModel, build_model, model_kind
+from ..tables import Table, told
 from ..vqvae.checkpoint import load_checkpoint
-from .config import TrainingConfig, told
+from .config import TrainingConfig
 
 # Fields of a model's config that say how it is trained, not what its weights are.
 _FREE = {"beta", "dice_weight", "ema_decay", "revive_after"}
@@ -34,10 +35,8 @@ class Preset:
     training: TrainingConfig
 
 
-class _PresetFile(BaseModel):
+class _PresetFile(Table):
     """The JSON file; what `training` leaves out has its default."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
     schema_version: Literal[1] = Field(alias="schema")
     model: str

@@ -6,7 +6,9 @@ import math
 from abc import abstractmethod
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
+
+from ..tables import Table
 
 Mode = Literal["zero", "force-sparse", "dense"]
 Layout = Literal["spatial", "flat-view"]
@@ -14,11 +16,7 @@ Cells = tuple[int, int, int]
 _Count = Annotated[int, Field(gt=0)]
 
 
-class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
-
-
-class CodebookConfig(_Table):
+class CodebookConfig(Table):
     """What all voxel models have in common: the token grid, the codebook and the weights of the losses."""
 
     resolution: int = Field(default=64, gt=0, description="Voxels along an edge of the cubic input grid.")

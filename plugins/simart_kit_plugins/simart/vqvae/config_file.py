@@ -6,17 +6,16 @@ import json
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 
 from simart_kit.errors import BadInputError
 
 from ..models import VoxelConfig, kind_of, model_kind
+from ..tables import Table, told
 
 
-class _ConfigFile(BaseModel):
+class _ConfigFile(Table):
     """The JSON file."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
     schema_version: Literal[1] = Field(alias="schema")
     model: str
@@ -40,14 +39,10 @@ def read_config(path: Path) -> VoxelConfig:
     except OSError as error:
         raise BadInputError(f"cannot read {path}: {error.strerror}; give the folder of a model") from error
     except ValidationError as error:
-        raise BadInputError(f"{path} is no config of a voxel model: {_told(error)}") from error
+        raise BadInputError(f"{path} is no config of a voxel model: {told(error)}") from error
     try:
         return model_kind(file.model).config.model_validate_json(json.dumps(file.config))
     except ValidationError as error:
-        raise BadInputError(f"{path} is no config of a {file.model}: {_told(error)}") from error
+        raise BadInputError(f"{path} is no config of a {file.model}: {told(error)}") from error
     except BadInputError as error:
         raise BadInputError(f"{path}: {error}") from error
-
-
-def _told(error: ValidationError) -> str:
-    return "; ".join(f"{'.'.join(map(str, e['loc'])) or 'file'}: {e['msg']}" for e in error.errors())
