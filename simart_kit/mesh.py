@@ -158,7 +158,7 @@ class Mesh:
     @cached_property
     def triangles(self) -> FloatArray:
         """(F, 3, 3) corner positions."""
-        return frozen_floats(self.vertices[self.faces])
+        return frozen_floats(self.vertices.take(self.faces, axis=0))
 
     @cached_property
     def face_areas(self) -> FloatArray:
@@ -173,8 +173,10 @@ class Mesh:
     @cached_property
     def bounds(self) -> FloatArray:
         """(2, 3) lower and upper corner of the vertices that faces use."""
-        used = self.vertices[self.faces.ravel()]
-        return frozen_floats([used.min(axis=0), used.max(axis=0)])
+        used = np.zeros(len(self.vertices), dtype=np.bool_)
+        used[self.faces] = True
+        points = self.vertices[used]
+        return frozen_floats([points.min(axis=0), points.max(axis=0)])
 
     @property
     def diagonal(self) -> float:

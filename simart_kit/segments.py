@@ -8,14 +8,14 @@ import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray, frozen_ints
 from .mesh import Mesh
-from .topology import connected, half_edges, shared_by_two, touching, unique_rows, weld
+from .topology import connected, first_alike, half_edges, shared_by_two, touching, weld
+from .triangles import cosines
 
 WELD_TOLERANCE = 1e-5  # of the diagonal: far below any gap that is modelled, above single precision's noise
 CREASE_ANGLE = np.deg2rad(25.0)
 # A component that spans the object may be several solids welded together. It is fused when one of them still
 # spans the object and holds nearly all of its surface.
 _SPANNING, _FUSED_AREA = 0.95, 0.85
-_AT_ONCE = 1 << 15  # joints: what they need then stays in the processor's cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,8 +58,7 @@ def find_segments(mesh: Mesh, crease: float = CREASE_ANGLE, node_hint: bool = Fa
     vertex = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE)
     corners = vertex[mesh.faces]
     degenerate = _degenerate(mesh, corners)
-    once, same = unique_rows(np.sort(corners, axis=1))
-    first = once[same]
+    first = first_alike(corners)
     duplicate = (first != np.arange(len(corners))) & ~degenerate
     kept = np.flatnonzero(~degenerate & ~duplicate)
     keys = corners
@@ -116,10 +115,11 @@ def _spanning_component(mesh: Mesh, labels: IntArray, kept: IntArray) -> int | N
     areas = np.bincount(labels, mesh.face_areas[kept], minlength=1)
     largest = int(areas.argmax())
     used = np.zeros(len(mesh.vertices), dtype=np.bool_)
-    used[mesh.faces[kept[labels == largest]]] = True
+    used[mesh.faces.take(kept.take(np.flatnonzero(labels == largest)), axis=0)] = True
     if not used.any():
         return None
-    extent = np.array([np.ptp(column[used]) for column in mesh.vertices.T])
+    ids = np.flatnonzero(used)
+    extent = np.array([np.ptp(column.take(ids)) for column in mesh.vertices.T])
     whole = mesh.bounds[1] - mesh.bounds[0]
     return largest if (extent >= _SPANNING * whole).all() else None
 
@@ -165,23 +165,18 @@ class _Joints:
             known: (F,) labels 0.. of faces that are connected for sure, which saves time.
         """
         flat = np.flatnonzero(self.cosine >= np.cos(crease))
-        left, right = self.left[flat], self.right[flat]
+        left, right = self.left.take(flat), self.right.take(flat)
         if known is None:
             return connected(len(self.normals), left, right)
-        left, right = known[left], known[right]
+        left, right = known.take(left), known.take(right)
         apart = left != right
         return connected(int(known.max(initial=-1)) + 1, left[apart], right[apart])[known]
 
 
 def _joints(half: IntArray, edge: IntArray, normals: FloatArray) -> _Joints:
     first = shared_by_two(edge)
-    left, right = half[first] // 3, half[first + 1] // 3
-    cosine = np.zeros(len(first))
-    for start in range(0, len(first), _AT_ONCE):
-        some = slice(start, start + _AT_ONCE)
-        one, two = normals.take(left[some], axis=0), normals.take(right[some], axis=0)
-        cosine[some] = np.einsum("ij,ij->i", one, two)
-    return _Joints(half, edge, normals, left, right, cosine)
+    left, right = half.take(first) // 3, half.take(first + 1) // 3
+    return _Joints(half, edge, normals, left, right, cosines(normals, left, right))
 
 
 def _largest_beside(labels: IntArray, corners: IntArray, wanted: BoolArray, kept: IntArray) -> IntArray:
@@ -190,14 +185,18 @@ def _largest_beside(labels: IntArray, corners: IntArray, wanted: BoolArray, kept
         return np.zeros(0, dtype=np.int64)
     none = len(labels)
     at_vertex = np.full(int(corners.max()) + 1, none, dtype=np.int64)
-    np.minimum.at(at_vertex, corners[kept].ravel(), np.repeat(labels[kept], 3))
+    touched = np.zeros(len(at_vertex), dtype=np.bool_)
+    touched[corners[wanted]] = True
+    a, b, c = touched.take(corners).T
+    beside = kept[(a | b | c)[kept]]
+    np.minimum.at(at_vertex, corners[beside].ravel(), np.repeat(labels[beside], 3))
     found = at_vertex[corners[wanted]].min(axis=1)
     return np.where(found < none, found, 0)
 
 
 def _by_area(labels: IntArray, areas: FloatArray) -> IntArray:
-    used, compact = np.unique(labels, return_inverse=True)
-    order = np.argsort(-np.bincount(compact.reshape(-1), areas), kind="stable")
-    rank = np.zeros(len(used), dtype=np.int64)
-    rank[order] = np.arange(len(used))
-    return np.asarray(rank[compact.reshape(-1)])
+    used = np.flatnonzero(np.bincount(labels))
+    order = np.argsort(-np.bincount(labels, areas)[used], kind="stable")
+    rank = np.zeros(int(labels.max(initial=-1)) + 1, dtype=np.int64)
+    rank[used[order]] = np.arange(len(used))
+    return rank.take(labels)

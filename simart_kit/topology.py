@@ -14,9 +14,9 @@ from .arrays import FloatArray, IntArray
 
 def weld(vertices: FloatArray, tolerance: float) -> IntArray:
     """(V,) ids 0.. such that vertices in one cell of a `tolerance` grid share an id."""
-    # A floor: a quotient of subnormal numbers would overflow.
-    cells = np.round((vertices - vertices.min(axis=0)) / max(tolerance, 1e-12)).astype(np.int64)
-    return unique_rows(cells)[1].astype(np.int32)
+    tolerance = max(tolerance, 1e-12)  # a quotient of subnormal numbers would overflow
+    cells = [np.round((column - column.min()) / tolerance).astype(np.int64) for column in vertices.T]
+    return unique_rows(np.stack(cells).T)[1].astype(np.int32)
 
 
 def unique_rows(rows: IntArray) -> tuple[IntArray, IntArray]:
@@ -30,7 +30,7 @@ def unique_rows(rows: IntArray) -> tuple[IntArray, IntArray]:
     order: IntArray
     if keys is None:
         order = np.lexsort(rows.T[::-1])
-        ordered = rows[order]
+        ordered = rows.take(order, axis=0)
         new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
     else:
         order, ordered = stable_order(keys)
@@ -38,6 +38,20 @@ def unique_rows(rows: IntArray) -> tuple[IntArray, IntArray]:
     ids = np.zeros(len(rows), dtype=np.int64)
     ids[order] = np.cumsum(new) - 1
     return order[new], ids
+
+
+def first_alike(faces: IntArray) -> IntArray:
+    """(F,) for each face the first one with the same three corners, in whatever order."""
+    # Sums of random numbers tell nearly all of them apart; those that they do not are looked at.
+    drawn = np.random.default_rng(0).integers(1 << 38, size=int(faces.max(initial=-1)) + 1)
+    order, mark = stable_order(sum(drawn.take(corner) for corner in faces.T))
+    same = np.zeros(len(faces) + 1, dtype=np.bool_)
+    same[1:-1] = mark[1:] == mark[:-1]
+    suspects = np.sort(order[same[1:] | same[:-1]])
+    once, which = unique_rows(np.sort(faces[suspects], axis=1))
+    first = np.arange(len(faces))
+    first[suspects] = suspects[once[which]]
+    return first
 
 
 def _row_keys(rows: IntArray) -> IntArray | None:
@@ -62,12 +76,16 @@ def stable_order(keys: IntArray) -> tuple[IntArray, IntArray]:
     Sorting numbers is several times as fast as finding an order: the index travels in the low bits.
     """
     bits = len(keys).bit_length()
-    index, mask = np.arange(len(keys)), (1 << bits) - 1
+    mask = (1 << bits) - 1
     if int(keys.max(initial=0)) < 1 << (63 - bits):
-        packed = np.sort((keys << bits) | index)
-        return packed & mask, packed >> bits
+        packed = keys << bits
+        packed |= np.arange(len(keys))
+        packed.sort()
+        order = packed & mask
+        packed >>= bits
+        return order, packed
     order = np.argsort(keys)
-    ordered = keys[order]
+    ordered = keys.take(order)
     group = np.zeros(len(keys), dtype=np.int64)
     np.cumsum(ordered[1:] != ordered[:-1], out=group[1:])
     return np.sort((group << bits) | order) & mask, ordered
@@ -93,6 +111,20 @@ def shared_by_two(edge: IntArray) -> IntArray:
     new = np.ones(len(edge) + 1, dtype=np.bool_)
     new[1:-1] = edge[1:] != edge[:-1]
     return np.flatnonzero(new[:-2] & ~new[1:-1] & new[2:])
+
+
+def edge_ends(faces: IntArray, edge: IntArray) -> tuple[IntArray, IntArray, IntArray]:
+    """Lower and higher corner of each of the edges (E,), and how many faces have it.
+
+    Args:
+        faces: (F, 3).
+        edge: (3 * F,) as `half_edges` gives it.
+    """
+    new = np.ones(len(edge) + 1, dtype=np.bool_)
+    new[1:-1] = edge[1:] != edge[:-1]
+    start = np.flatnonzero(new)
+    low, high = np.divmod(edge.take(start[:-1]), int(faces.max(initial=0)) + 1)
+    return low, high, np.diff(start)
 
 
 def edges(faces: IntArray) -> IntArray:

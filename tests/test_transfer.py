@@ -11,6 +11,7 @@ from simart_kit.errors import BadInputError
 from simart_kit.mesh import Mesh
 from simart_kit.segments import find_segments
 from simart_kit.testing.meshes import box, boxes_mesh, cabinet_mesh
+from simart_kit.topology import edge_ends, half_edges
 from simart_kit.transfer import transfer
 from simart_kit.transfer.edge_links import edge_links
 from simart_kit.transfer.mesh_graph import hearing, smoothed
@@ -70,7 +71,7 @@ def test_leaving_out_impossible_parts_changes_no_probability(number, sigma):
 def test_smoothing_moves_half_way_to_what_is_heard_and_stays_within_a_piece():
     faces = np.array([[0, 1, 2], [3, 4, 5]])
     listens, creased = np.array([True] * 3 + [False] * 3), np.array([False, True] + [False] * 4)
-    weights = hearing(faces, listens, creased, np.zeros(0, dtype=int))
+    weights = hearing(edge_ends(faces, half_edges(faces)[1]), listens, creased, faces[:0])
     values = np.array([[1.0], [0], [0], [7], [8], [9]], dtype=np.float32)
     none = np.zeros((0, 1), dtype=np.float32)
     # 0 hears 1 (a crease: weight 0.1) and 2 (weight 1): (0 * 0.1 + 0 * 1) / 1.1 = 0. 1 hears 0 and 2: 1/2.
@@ -81,7 +82,7 @@ def test_smoothing_moves_half_way_to_what_is_heard_and_stays_within_a_piece():
 
 def test_a_face_that_brings_values_is_heard_by_its_corners():
     faces, everyone = np.array([[0, 1, 2]]), np.ones(3, dtype=bool)
-    weights = hearing(faces, everyone, ~everyone, np.array([0]))
+    weights = hearing(edge_ends(faces, half_edges(faces)[1]), everyone, ~everyone, faces)
     values = smoothed(np.zeros((3, 1), np.float32), np.ones((1, 1), np.float32), weights, 1)
     # Each corner hears two others (0) and the face (1), so it goes half-way to 1/3.
     np.testing.assert_allclose(values[:, 0], 1 / 6, rtol=1e-6)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray, units
-from ..topology import half_edges, shared_by_two, unique_rows
-from ..triangles import unit_normals
+from ..topology import edge_ends, half_edges, shared_by_two, unique_rows
+from ..triangles import cosines, unit_normals
 
 CREASE_ANGLE = np.deg2rad(25.0)
 # Edges with more faces than this link none; pairing takes time with the square.
@@ -26,6 +26,7 @@ class EdgeLinks:
         bent: (L,) whether the surface is creased between them: it turns by more than 25 degrees.
         repeats: (R, 2) a face and the one that it repeats, which alone has links.
         creased: (V,) whether a vertex touches a crease, or an edge of more than two faces.
+        ends: (E,) lower and higher vertex of each edge, and how many faces have it.
     """
 
     left: IntArray
@@ -33,6 +34,7 @@ class EdgeLinks:
     bent: BoolArray
     repeats: IntArray
     creased: BoolArray
+    ends: tuple[IntArray, IntArray, IntArray]
 
 
 def edge_links(points: FloatArray, faces: IntArray) -> EdgeLinks:
@@ -46,33 +48,34 @@ def edge_links(points: FloatArray, faces: IntArray) -> EdgeLinks:
         faces: (F, 3) vertex ids.
     """
     half, edge = half_edges(faces)
-    first = shared_by_two(edge)
-    pairs: list[IntArray] = [np.stack([half[first], half[first + 1]], axis=1)]
-    crowded, edge = _crowded(half, edge, first)
+    first, ends = shared_by_two(edge), edge_ends(faces, edge)
+    one, two = half.take(first), half.take(first + 1)
+    crowded, edge = _crowded(half, edge)
     repeats: IntArray = np.zeros((0, 2), dtype=np.int64)
     if len(crowded):
         repeats = _repeats(faces, np.unique(crowded // 3))
         once = ~np.isin(crowded // 3, repeats[:, 0])
         crowded, edge = crowded[once], edge[once]
-        pairs.append(_across_material(points, faces, crowded, edge))
-    left, right = (np.concatenate(pairs) // 3).T
-    normals = unit_normals(points.take(faces, axis=0))
-    cosine = np.einsum("ij,ij->i", normals.take(left, axis=0), normals.take(right, axis=0))
-    bent = cosine < np.cos(CREASE_ANGLE)
+        more, others = _across_material(points, faces, crowded, edge)
+        one, two = np.concatenate([one, more]), np.concatenate([two, others])
+    left, right = one // 3, two // 3
+    bent = cosines(unit_normals(points.take(faces, axis=0)), left, right) < np.cos(CREASE_ANGLE)
     creased = np.zeros(len(points), dtype=np.bool_)
-    for sharp in (*np.concatenate(pairs)[bent].T, crowded):
+    for sharp in (one[bent], two[bent], crowded):
         creased[faces[sharp // 3, sharp % 3]] = True
         creased[faces[sharp // 3, (sharp + 1) % 3]] = True
-    return EdgeLinks(left, right, bent, repeats, creased)
+    return EdgeLinks(left, right, bent, repeats, creased, ends)
 
 
-def _crowded(half: IntArray, edge: IntArray, pair: IntArray) -> tuple[IntArray, IntArray]:
-    """The half-edges, and their edges, where more than two share an edge; `pair` is where two do."""
+def _crowded(half: IntArray, edge: IntArray) -> tuple[IntArray, IntArray]:
+    """The half-edges, and their edges, where more than two share an edge."""
+    same = edge[1:] == edge[:-1]
+    third = same[1:] & same[:-1]
     many = np.zeros(len(edge), dtype=np.bool_)
-    many[1:] = edge[1:] == edge[:-1]
-    many[:-1] |= many[1:]
-    many[pair] = many[pair + 1] = False
-    return half[many], edge[many]
+    for shift in range(3):
+        many[shift : shift + len(third)] |= third
+    some = np.flatnonzero(many)
+    return half[some], edge[some]
 
 
 def _repeats(faces: IntArray, suspects: IntArray) -> IntArray:
@@ -85,8 +88,10 @@ def _repeats(faces: IntArray, suspects: IntArray) -> IntArray:
     return np.stack([suspects[again], suspects[first[again]]], axis=1)
 
 
-def _across_material(points: FloatArray, faces: IntArray, half: IntArray, edge: IntArray) -> IntArray:
-    """(M, 2) half-edges of crowded edges that bound the same wedge of material."""
+def _across_material(
+    points: FloatArray, faces: IntArray, half: IntArray, edge: IntArray
+) -> tuple[IntArray, IntArray]:
+    """Pairs of half-edges of crowded edges that bound the same wedge of material."""
     group = np.cumsum(np.r_[False, edge[1:] != edge[:-1]])
     rising = faces[half // 3, half % 3] < faces[half // 3, (half + 1) % 3]
     angle = _angles(points, faces, half, rising)
@@ -104,7 +109,7 @@ def _across_material(points: FloatArray, faces: IntArray, half: IntArray, edge: 
     np.minimum.at(least, one, wedge)
     np.minimum.at(least, two, wedge)
     best = wedge <= np.minimum(least[one], least[two]) + _SAME_ANGLE
-    return np.stack([half[one[best]], half[two[best]]], axis=1)
+    return half[one[best]], half[two[best]]
 
 
 def _angles(points: FloatArray, faces: IntArray, half: IntArray, rising: BoolArray) -> FloatArray:

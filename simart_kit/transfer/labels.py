@@ -86,21 +86,28 @@ def transfer(
     if mode == "segments" and segments is None:
         segments = find_segments(mesh)
     vertex = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE) if segments is None else segments.vertex
-    points, faces = _welded(mesh, vertex)
+    vertex, points, faces = _welded(mesh, vertex)
     inside = inside_points(points, faces, known.sigma)
     likely, label, margin = _voted(known, points, faces, inside, iterations)
     if mode == "segments" and segments is not None:
         weight = mesh.face_areas * margin
         label = agree_in_segments(label, weight, segments.face_segment, known.count, agreement)
     label, notes = _none_lost(label, known, points, faces, inside)
-    return Transfer(frozen_ints(label), _frozen(likely[vertex]), notes)
+    return Transfer(frozen_ints(label), _frozen(likely.take(vertex, axis=0)), notes)
 
 
-def _welded(mesh: Mesh, vertex: IntArray) -> tuple[FloatArray, IntArray]:
-    """(W, 3) points by welded id, and (F, 3) faces on them."""
-    points = np.zeros((int(vertex.max()) + 1, 3))
-    points[vertex[::-1]] = mesh.vertices[::-1]
-    return points, vertex[mesh.faces]
+def _welded(mesh: Mesh, vertex: IntArray) -> tuple[IntArray, FloatArray, IntArray]:
+    """(V,) welded ids in the order of the mesh, (W, 3) points by them, and (F, 3) faces on them.
+
+    In that order what is near on the surface is near in memory, as far as it is in the mesh.
+    """
+    first = np.zeros(int(vertex.max()) + 1, dtype=np.int64)
+    first[vertex[::-1]] = np.arange(len(vertex))[::-1]
+    leads = np.zeros(len(vertex), dtype=np.bool_)
+    leads[first] = True
+    number = np.cumsum(leads) - 1
+    vertex = number.take(first).take(vertex)
+    return vertex, mesh.vertices.take(np.flatnonzero(leads), axis=0), vertex.take(mesh.faces)
 
 
 def _voted(
@@ -113,7 +120,7 @@ def _voted(
     label, margin = likeliest[faces[:, 0]], np.ones(len(faces))
     if not agreed.all():
         region = region_around(points, faces, ~agreed)
-        smooth, ballot = _decided(known, likely[region.vertex_ids], region, inside, iterations)
+        smooth, ballot = _decided(known, likely.take(region.vertex_ids, axis=0), region, inside, iterations)
         likely[region.vertex_ids] = smooth
         label[region.face_ids[region.wanted]] = ballot.label
         margin[region.face_ids[region.wanted]] = ballot.margin
@@ -126,20 +133,20 @@ def _decided(
     """Smoothed (V, P) probabilities at the region's vertices, and the votes of the faces it is about."""
     links = edge_links(region.points, region.faces)
     large, sums = region.faces_here(inside.faces), inside.sums(known.probabilities(inside.points))
-    weights = hearing(region.faces, region.inner, links.creased, large)
+    weights = hearing(links.ends, region.inner, links.creased, region.faces[large])
     means = (sums / inside.counts[:, None]).astype(np.float32)
     likely = smoothed(likely, means, weights, iterations)
     wanted = np.flatnonzero(region.wanted)
-    ballot = vote(likely, region.faces[wanted], _TIE, np.searchsorted(wanted, large), sums)
-    tied = np.flatnonzero(ballot.contenders.sum(axis=1) > 1)
-    label = likely[region.faces[:, 0]].argmax(axis=1)
+    ballot = vote(likely, region.faces.take(wanted, axis=0), _TIE, np.searchsorted(wanted, large), sums)
+    tied = wanted[ballot.tied]
+    label = likely.argmax(axis=1)[region.faces[:, 0]]
     label[wanted] = ballot.label
-    middles, contenders = _middles(region.points, region.faces), ballot.contenders[tied]
-    ways = ways_to_parts(middles, links, wanted[tied], label, contenders)
+    middles = _middles(region.points, region.faces)
+    ways = ways_to_parts(middles, links, tied, label, ballot.contenders)
     shortest = ways.min(axis=1, initial=np.inf, keepdims=True)
     # What no way leads to is decided by its own place.
-    left = np.where(np.isfinite(shortest), ways <= shortest * (1 + 1e-9), contenders)
-    label[wanted[tied]] = known.nearest_part(middles[wanted[tied]], left)
+    left = np.where(np.isfinite(shortest), ways <= shortest * (1 + 1e-9), ballot.contenders)
+    label[tied] = known.nearest_part(middles[tied], left)
     return likely, replace(ballot, label=label[wanted])
 
 
@@ -172,8 +179,12 @@ def _none_lost(
 
 def _middles(points: FloatArray, faces: IntArray) -> FloatArray:
     """(F, 3) middles of the faces [m]."""
-    a, b, c = (points.take(corner, axis=0) for corner in faces.T)
-    return np.asarray((a + b + c) / 3)
+    middles: FloatArray
+    middles, b, c = (points.take(corner, axis=0) for corner in faces.T)
+    middles += b
+    middles += c
+    middles /= 3
+    return middles
 
 
 def _note(part: int, taken: int) -> str:

@@ -26,34 +26,41 @@ def smoothed(
         weights: (V, V + B), such as of `hearing`; vertices with an empty row stay as well.
         iterations: how often.
     """
-    listens = np.diff(weights.indptr)[:, None] > 0
+    heard = np.concatenate([values, brought])
+    moving = heard[: len(values)]
+    # What hears nothing adds nothing, and is not halved.
+    share = np.where(np.diff(weights.indptr) > 0, np.float32(0.5), np.float32(1))[:, None]
     for _ in range(iterations):
-        mean = weights @ np.concatenate([values, brought])
-        values = np.where(listens, (values + mean) / 2, values)
-    return values
+        moving += weights @ heard
+        moving *= share
+    return moving
 
 
-def hearing(faces: IntArray, listens: BoolArray, creased: BoolArray, bringing: IntArray) -> csr_array:
+def hearing(
+    ends: tuple[IntArray, IntArray, IntArray], listens: BoolArray, creased: BoolArray, bringing: IntArray
+) -> csr_array:
     """(V, V + B) row-stochastic weights of what each vertex hears from its neighbours.
 
     An edge counts once for each of its faces. Pieces that share no vertex do not hear each other.
 
     Args:
-        faces: (F, 3) vertex ids.
+        ends: (E,) lower and higher vertex of each edge, and how many faces have it.
         listens: (V,) vertices that hear at all.
         creased: (V,) vertices on creases, which are heard little.
-        bringing: (B,) faces that bring values of their own, which their corners hear like a vertex.
+        bringing: (B, 3) corners of faces that bring values of their own, which these hear like a vertex.
     """
     from scipy.sparse import csr_array
 
     count = len(listens)
-    ahead, back = faces[:, [1, 2, 0]].ravel(), faces.ravel()
-    listener = np.concatenate([back, ahead, faces[bringing].ravel()])
+    low, high, shared = ends
+    loudness = np.where(creased, CREASE_WEIGHT, 1.0)
     brought = count + np.repeat(np.arange(len(bringing)), 3)
-    teller = np.concatenate([ahead, back, brought.astype(faces.dtype)])
-    loudness = np.concatenate([np.where(creased, CREASE_WEIGHT, 1.0), np.ones(len(bringing))])
-    used = np.flatnonzero(listens[listener] & (listener != teller))
-    listener, teller = listener[used], teller[used]
-    heard = loudness[teller]
-    share = (heard / np.bincount(listener, heard, count)[listener]).astype(np.float32)
-    return csr_array((share, (listener, teller)), shape=(count, count + len(bringing)))
+    # In this order the rows come out sorted.
+    listener = np.concatenate([high, low, bringing.ravel()])
+    teller = np.concatenate([low, high, brought])
+    loud = np.concatenate([loudness.take(low) * shared, loudness.take(high) * shared, np.ones(len(brought))])
+    used = np.flatnonzero(listens.take(listener) & (listener != teller))
+    links = (listener.take(used).astype(np.int32), teller.take(used).astype(np.int32))
+    heard = csr_array((loud.take(used), links), shape=(count, count + len(bringing)))
+    heard.data /= np.repeat(heard.sum(axis=1), np.diff(heard.indptr))
+    return heard.astype(np.float32)

@@ -37,13 +37,20 @@ class Region:
 def region_around(points: FloatArray, faces: IntArray, wanted: BoolArray) -> Region:
     """The region of the (F,) wanted ones of (F, 3) faces on (V, 3) points [m]."""
     inner = np.zeros(len(points), dtype=np.bool_)
-    inner[faces[wanted]] = True
-    a, b, c = faces.T
-    face_ids = np.flatnonzero(inner[a] | inner[b] | inner[c])
-    around = faces[face_ids]
+    inner[faces.take(np.flatnonzero(wanted), axis=0)] = True
+    a, b, c = inner.take(faces).T
+    face_ids = np.flatnonzero(a | b | c)
+    around = faces.take(face_ids, axis=0)
     used = np.zeros(len(points), dtype=np.bool_)
     used[around] = True
     vertex_ids = np.flatnonzero(used)
-    here = np.zeros(len(points), dtype=np.int32)
+    here = np.zeros(len(points), dtype=np.int64)
     here[vertex_ids] = np.arange(len(vertex_ids))
-    return Region(face_ids, vertex_ids, points[vertex_ids], here[around], wanted[face_ids], inner[vertex_ids])
+    return Region(
+        face_ids,
+        vertex_ids,
+        points.take(vertex_ids, axis=0),
+        here.take(around),
+        wanted[face_ids],
+        inner[vertex_ids],
+    )

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..arrays import BoolArray, Float32Array, FloatArray, IntArray
 from ..topology import weld
+from .cells import Cells, cells_of
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
@@ -19,8 +20,8 @@ if TYPE_CHECKING:
 _LEAST_RATIO = 1e-3
 # Distances that differ by less than this are equal, relative to sigma; so are places of seeds.
 _SAME = 1e-6
-# How far gaps between the seeds of different parts are measured [sigma].
-_FAR = 10.0
+# Fewer questions than this are not worth a thread.
+_FEW = 10_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,34 +68,45 @@ class PartSeeds:
             for seeds in mine
         )
 
-    @cached_property
-    def gaps(self) -> FloatArray:
-        """(P, S) how far each seed has it to the nearest one of each part [m], at most `_FAR` sigma."""
-        far = _FAR * self.sigma
-        found = [tree.query(self.points, distance_upper_bound=far, workers=-1)[0] for tree in self.each_part]
-        return np.asarray(np.minimum(np.stack(found), far))
-
     def probabilities(self, points: FloatArray) -> Float32Array:
         """(N, P) chance of each part at (N, 3) points [m], each row summing to 1: P ~ exp(-d^2 / 2 sigma^2).
 
-        A part is measured only where it can matter: the nearest seed of all tells by the triangle inequality
-        how near any seed of another part may be.
+        A part is measured only where it can matter, and none where only one can.
         """
-        nearest, seed = (np.asarray(found) for found in self.all_parts.query(points, workers=-1))
-        reach = np.sqrt(nearest**2 + 2 * self.sigma**2 * np.log(1 / _LEAST_RATIO))
-        likely = np.zeros((len(points), self.count), dtype=np.float32)
-        likely[np.arange(len(points)), self.part[seed]] = 1
-        # A gap cut off there may be as near as any.
-        slack = np.minimum((nearest + reach) * (1 + _SAME), _FAR * self.sigma)
-        for part, tree in enumerate(self.each_part):
-            near = np.flatnonzero((self.gaps[part][seed] <= slack) & (self.part[seed] != part))
-            if len(near):
-                bound = float(reach[near].max()) * (1 + _SAME)
-                distance = tree.query(points[near], distance_upper_bound=bound, workers=-1)[0]
-                ratio = np.exp((nearest[near] ** 2 - distance**2) / (2 * self.sigma**2))
-                likely[near, part] = np.where(ratio < _LEAST_RATIO, 0, ratio)
+        if not len(points):
+            return np.zeros((0, self.count), dtype=np.float32)
+        cells = cells_of(points, self.sigma)
+        possible, reach = self._possible(cells)
+        open_ = possible & (possible.sum(axis=1, keepdims=True) > 1)
+        likely: Float32Array = (possible & ~open_).astype(np.float32).take(cells.of_point, axis=0)
+        nearest: FloatArray = np.full(len(points), np.inf)
+        found: list[tuple[IntArray, FloatArray]] = []
+        for tree, asked in zip(self.each_part, open_.T, strict=True):
+            rows: IntArray = np.flatnonzero(asked.take(cells.of_point))
+            distance = _distance(tree, points.take(rows, axis=0), reach[asked].max(initial=0.0))
+            nearest[rows] = np.minimum(nearest.take(rows), distance)
+            found.append((rows, distance))
+        for part, (rows, distance) in enumerate(found):
+            ratio = np.exp((nearest.take(rows) ** 2 - distance**2) / (2 * self.sigma**2))
+            likely[rows, part] = np.where(ratio < _LEAST_RATIO, 0, ratio)
         likely /= likely.sum(axis=1, keepdims=True)
         return likely
+
+    def _possible(self, cells: Cells) -> tuple[BoolArray, FloatArray]:
+        """(C, P) parts that may matter somewhere in each cell, and (C,) how near their seeds are then [m].
+
+        By the triangle inequality: no distance differs from the center's by more than the cell's radius.
+        """
+        nearest = _distance(self.all_parts, cells.centers) + cells.radius
+        reach = np.sqrt(nearest**2 + 2 * self.sigma**2 * np.log(1 / _LEAST_RATIO)) * (1 + _SAME)
+        around = reach + cells.radius * (1 + _SAME)
+        most = around.max()
+        possible = np.zeros((len(around), self.count), dtype=np.bool_)
+        for part, tree in enumerate(self.each_part):
+            boxed = (cells.centers >= tree.mins - most) & (cells.centers <= tree.maxes + most)
+            near = np.flatnonzero(boxed.all(axis=1))
+            possible[near, part] = _distance(tree, cells.centers[near], most) <= around[near]
+        return possible, reach
 
     def nearest_part(self, points: FloatArray, allowed: BoolArray) -> IntArray:
         """(N,) the part whose seeds are nearest to (N, 3) points [m], out of (N, P) those allowed.
@@ -108,6 +120,8 @@ class PartSeeds:
         tied = distance <= distance.min(axis=1, keepdims=True, initial=np.inf) + self.sigma * _SAME
         chosen[open_] = tied.argmax(axis=1)
         several = np.flatnonzero(tied.sum(axis=1) > 1)
+        if not len(several):
+            return np.asarray(chosen)
         open_, tied = open_[several], tied[several]
         chosen[open_] = self._distances(self.own, points[open_], tied).argmin(axis=1)
         return np.asarray(chosen)
@@ -118,5 +132,11 @@ class PartSeeds:
         for part, tree in enumerate(trees):
             rows = np.flatnonzero(wanted[:, part])
             if len(rows):
-                distance[rows, part] = tree.query(points[rows], workers=-1)[0]
+                distance[rows, part] = _distance(tree, points[rows])
         return distance
+
+
+def _distance(tree: cKDTree, points: FloatArray, most: float = np.inf) -> FloatArray:
+    """(N,) distance to the nearest seed of the tree [m], infinite where it is more than `most`."""
+    workers = 1 if len(points) < _FEW else -1
+    return np.asarray(tree.query(points, distance_upper_bound=most, workers=workers)[0])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import BoolArray, Float32Array, FloatArray, IntArray
-from ..triangles import areas
+from ..triangles import areas, chunks
 
 # Points inside one face, and inside all faces together, at most; a large face still gets one.
 _MOST_A_FACE, _MOST = 512, 300_000
@@ -24,11 +24,13 @@ class Ballot:
     Attributes:
         label: (F,) part with most votes, the lowest where several have as many.
         margin: (F,) share of the votes by which it leads the second, 0..1.
-        contenders: (F, P) the parts that lead, or are next to it.
+        tied: (T,) faces where others are next to the part that leads.
+        contenders: (T, P) which parts lead there, or are next to it.
     """
 
     label: IntArray
     margin: FloatArray
+    tied: IntArray
     contenders: BoolArray
 
 
@@ -76,17 +78,20 @@ def inside_points(points: FloatArray, faces: IntArray, spacing: float) -> Inside
 
 def _extent(points: FloatArray, faces: IntArray) -> Float32Array:
     """(F,) longest side of each face's bounding box [m], in single precision."""
-    rows = (points - points.mean(axis=0)).astype(np.float32)
-    a, b, c = (rows.take(corner, axis=0) for corner in faces.T)
-    x, y, z = (np.maximum(np.maximum(a, b), c) - np.minimum(np.minimum(a, b), c)).T
-    return np.asarray(np.maximum(np.maximum(x, y), z))
+    rows = np.stack([(column - column.mean()).astype(np.float32) for column in points.T], axis=1)
+    longest = np.zeros(len(faces), dtype=np.float32)
+    for some in chunks(len(faces)):
+        a, b, c = np.ascontiguousarray(rows.take(faces[some], axis=0).reshape(-1, 9).T).reshape(3, 3, -1)
+        sides = np.maximum(np.maximum(a, b), c) - np.minimum(np.minimum(a, b), c)
+        longest[some] = sides.max(axis=0)
+    return longest
 
 
 def unanimous(likely: Float32Array, faces: IntArray) -> tuple[IntArray, BoolArray]:
     """(V,) most likely part at each vertex, and (F,) whether a face's corners agree on one for sure."""
     label = likely.argmax(axis=1).astype(np.int32)
     told = np.where(likely[np.arange(len(likely)), label] >= _SURE, label, -1)
-    a, b, c = (told[corner] for corner in faces.T)
+    a, b, c = told.take(faces).T
     return label, (a == b) & (b == c) & (a >= 0)
 
 
@@ -101,16 +106,20 @@ def vote(likely: Float32Array, faces: IntArray, tie: float, large: IntArray, sum
         sums: (B, P) of the probabilities at their points.
     """
     votes = np.zeros((len(faces), likely.shape[1]), dtype=np.float32)
-    for corner in faces.T:
-        votes += likely.take(corner, axis=0)
+    for some in chunks(len(faces)):
+        for corner in faces[some].T:
+            votes[some] += likely.take(corner, axis=0)
     votes[large] += sums
     votes /= votes.sum(axis=1, keepdims=True)
     label = votes.argmax(axis=1)
     rows = np.arange(len(faces))
     top = votes[rows, label]
-    contenders = votes > (top - tie)[:, None]
     votes[rows, label] = 0
-    return Ballot(label, (top - votes.max(axis=1)).astype(np.float64), contenders)
+    second = votes[rows, votes.argmax(axis=1)]
+    tied = np.flatnonzero(second > top - tie)
+    contenders = votes[tied] > (top[tied] - tie)[:, None]
+    contenders[np.arange(len(tied)), label[tied]] = True
+    return Ballot(label, (top - second).astype(np.float64), tied, contenders)
 
 
 def agree_in_segments(

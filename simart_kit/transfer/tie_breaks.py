@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from ..triangles import lengths
 from .edge_links import EdgeLinks
 
 # How much longer a way counts that crosses a crease.
@@ -34,22 +35,26 @@ def ways_to_parts(
     open_ = np.zeros(len(middles), dtype=np.bool_)
     open_[tied] = True
     near = np.flatnonzero(open_[left] | open_[right])
-    cost = np.linalg.norm(middles[left[near]] - middles[right[near]], axis=1)
+    left, right = left[near], right[near]
+    cost = lengths(middles.take(left, axis=0) - middles.take(right, axis=0))
     cost = np.where(bent[near], _CREASE_COST, 1.0) * np.maximum(cost, np.finfo(np.float64).tiny)
     # The faces that matter, the tied ones first.
     beside = np.zeros(len(middles), dtype=np.bool_)
-    beside[left[near]] = beside[right[near]] = True
+    beside[left] = beside[right] = True
     nodes = np.concatenate([tied, np.flatnonzero(beside & ~open_)])
     here = np.zeros(len(middles), dtype=np.int64)
     here[nodes] = np.arange(len(nodes))
-    left, right, decided = here[left[near]], here[right[near]], label[nodes[len(tied) :]]
+    left, right, decided = here[left], here[right], label[nodes[len(tied) :]]
     ways = np.full(contenders.shape, np.inf)
     for part in np.flatnonzero(contenders.any(axis=0)):
-        sources = np.flatnonzero(decided == part) + len(tied)
+        mine = np.flatnonzero(contenders[:, part])
         allowed = np.concatenate([contenders[:, part], decided == part])
-        usable = allowed[left] & allowed[right]
-        links_used = (cost[usable], (left[usable], right[usable]))
-        graph = csr_array(links_used, shape=(len(nodes), len(nodes)))
-        if len(sources):
-            ways[:, part] = dijkstra(graph, directed=False, indices=sources, min_only=True)[: len(tied)]
-    return np.where(contenders, ways, np.inf)
+        usable = np.flatnonzero(allowed.take(left) & allowed.take(right))
+        number = np.cumsum(allowed, dtype=np.int32) - 1
+        count = int(allowed.sum())
+        ends = (number.take(left.take(usable)), number.take(right.take(usable)))
+        graph = csr_array((cost.take(usable), ends), shape=(count, count))
+        if len(mine) < count:
+            sources = np.arange(len(mine), count)
+            ways[mine, part] = dijkstra(graph, directed=False, indices=sources, min_only=True)[: len(mine)]
+    return ways
