@@ -25,6 +25,7 @@ DEFAULT_PLUGINS = (
     "simart_kit_plugins.geometric",
     "simart_kit_plugins.hints",
     "simart_kit_plugins.simart",
+    "simart_kit_plugins.nano",
     "simart_kit_plugins.modifiers.scale",
     "simart_kit_plugins.modifiers.snap",
     "simart_kit_plugins.modifiers.sweep",
@@ -36,7 +37,7 @@ DEFAULT_PLUGINS = (
     "simart_kit_plugins.recorder:Recorder",
 )
 # Those of them with commands: all that the command line imports to list its commands.
-COMMAND_PLUGINS = ("simart_kit_plugins.simart",)
+COMMAND_PLUGINS = ("simart_kit_plugins.simart", "simart_kit_plugins.nano")
 STAGE_HOOKS: dict[str, type[Stage]] = {
     "register_segmenters": Segmenter,
     "register_joint_predictors": JointPredictor,

@@ -5,19 +5,19 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from simart_kit_plugins.simart.training.grids import packed_size
-from simart_kit_plugins.simart.training.procedural import (
-    object_grids,
-    procedural_grids,
-    procedural_object,
-)
-from simart_kit_plugins.simart.training.procedural.outlines import SQUARE, ngon, rounded
-from simart_kit_plugins.simart.training.procedural.primitives import (
+from simart_kit_plugins.shapes.outlines import SQUARE, ngon, rounded
+from simart_kit_plugins.shapes.primitives import (
     box,
     boxes,
     cylinder,
     open_box,
     tube,
+)
+from simart_kit_plugins.simart.training.grids import packed_size
+from simart_kit_plugins.simart.training.procedural import (
+    object_grids,
+    procedural_grids,
+    procedural_object,
 )
 from simart_kit_plugins.simart.training.procedural.shapes import FAMILIES, family
 from simart_kit_plugins.simart.training.procedural.together import occupancies

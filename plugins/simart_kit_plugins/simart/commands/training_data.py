@@ -48,12 +48,12 @@ def training_grids(
         raise BadInputError(f"seed {seed} is not below {HELD_OUT_SEED}, the seed of the held-out objects")
     found = [folder_grids(folder, resolution, plugins, progress) for folder in folders]
     if generated:
-        found.append(_generated(generated, seed, resolution, "objects made", progress))
+        found.append(_generated(generated, seed, resolution, "objects made", progress, augmented=True))
     return joined(found)
 
 
 def held_out_grids(count: int, resolution: int, progress: Progress) -> Grids:
-    """Grids of generated objects that no training sees."""
+    """Grids of generated objects that no training sees; none is augmented."""
     return _generated(count, HELD_OUT_SEED, resolution, "held-out objects made", progress)
 
 
@@ -78,7 +78,11 @@ def voxel_cache() -> Path:
     return (Path(base) if base else Path.home() / ".cache") / "simart-kit" / "voxels"
 
 
-def _generated(count: int, seed: int, resolution: int, task: str, progress: Progress) -> Grids:
+def _generated(
+    count: int, seed: int, resolution: int, task: str, progress: Progress, augmented: bool = False
+) -> Grids:
     from ..training.procedural import procedural_grids
 
-    return procedural_grids(count, seed, resolution, lambda done, of: progress(task, done, of))
+    return procedural_grids(
+        count, seed, resolution, lambda done, of: progress(task, done, of), augmented=augmented
+    )

@@ -6,10 +6,10 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray
 
-from .dice import Dice
-from .outlines import ngon, rounded
-from .placing import mirrored, rotation
-from .primitives import Pieces, box, loft, prism, revolve, sheet, superquadric, torus, tube
+from ....shapes.dice import Dice
+from ....shapes.outlines import ngon, rounded
+from ....shapes.placing import mirrored, rotation
+from ....shapes.primitives import Pieces, box, loft, prism, revolve, sheet, superquadric, torus, tube
 from .turned import hollow, smooth_profile
 
 

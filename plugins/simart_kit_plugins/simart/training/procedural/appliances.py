@@ -6,13 +6,25 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray
 
-from .dice import Dice
-from .handles import knob
+from ....shapes.dice import Dice
+from ....shapes.handles import knob
+from ....shapes.legs import feet
+from ....shapes.outlines import ngon, rounded
+from ....shapes.placing import Y, at, moved, pointed, rotation, turned
+from ....shapes.primitives import (
+    Pieces,
+    between,
+    box,
+    cylinder,
+    loft,
+    open_box,
+    prism,
+    rod,
+    torus,
+    tube,
+    vessel,
+)
 from .leaves import Opening, Style, door, drawer, flap
-from .legs import feet
-from .outlines import ngon, rounded
-from .placing import Y, at, moved, pointed, rotation, turned
-from .primitives import Pieces, between, box, cylinder, loft, open_box, prism, rod, torus, tube, vessel
 
 
 def appliance(dice: Dice) -> list[Pieces]:
@@ -33,9 +45,10 @@ def shell(size: tuple[float, float, float], wall: float) -> FloatArray:
 def rack(dice: Dice, width: float, depth: float, height: float) -> Pieces:
     """A basket of wires or a plain grate, its floor at z = 0."""
     wire = min(width, depth) * dice.between(0.006, 0.02)
-    along = np.linspace(-width / 2, width / 2, dice.whole(4, 9))
-    across = np.linspace(-depth / 2, depth / 2, dice.whole(2, 4))
+    along = np.linspace(-width / 2, width / 2, dice.whole(4, 14))
+    across = np.linspace(-depth / 2, depth / 2, dice.whole(2, 8))
     rise = height if dice.chance(0.6) else 0.0
+    tine = height * dice.between(0.3, 0.8) if dice.chance(0.4) else 0.0
     pieces = at(box((wire, depth, wire)), [(x, 0, 0) for x in along])
     pieces += at(box((width, wire, wire)), [(0, y, 0) for y in across])
     if rise:
@@ -43,6 +56,8 @@ def rack(dice: Dice, width: float, depth: float, height: float) -> Pieces:
         rim = [(0, s * depth / 2, rise) for s in (-1, 1)]
         pieces += at(box((width, wire, wire)), rim)
         pieces += at(box((wire, depth, wire)), [(s * width / 2, 0, rise) for s in (-1, 1)])
+    if tine and len(across) > 2:
+        pieces += at(box((wire, wire, tine)), [(x, y, tine / 2) for x in along for y in across[1:-1]])
     return pieces
 
 

@@ -9,12 +9,12 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray
 
-from .dice import Dice
-from .fronts import front
+from ....shapes.dice import Dice
+from ....shapes.fronts import front
+from ....shapes.legs import feet
+from ....shapes.placing import moved
+from ....shapes.primitives import Pieces, between, boxes
 from .leaves import Opening, Style, door, drawer, flap, sliding
-from .legs import feet
-from .placing import moved
-from .primitives import Pieces, between, boxes
 
 MOST_PARTS = 12
 # Width, depth and height: base cabinet, wall cabinet, wardrobe, chest, sideboard, bookcase, night stand.

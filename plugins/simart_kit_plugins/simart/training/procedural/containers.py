@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from ....shapes.dice import Dice
+from ....shapes.handles import handle
+from ....shapes.legs import wheel
+from ....shapes.outlines import SQUARE, ngon, rounded
+from ....shapes.placing import at, mirrored, moved, pointed, rotation, turned
+from ....shapes.primitives import Pieces, between, box, boxes, loft, open_box, prism, rod, tube, vessel
 from .devices import keys
-from .dice import Dice
-from .handles import handle
-from .legs import wheel
-from .outlines import SQUARE, ngon, rounded
-from .placing import at, mirrored, moved, pointed, rotation, turned
-from .primitives import Pieces, between, box, boxes, loft, open_box, prism, rod, tube, vessel
 
 
 def container(dice: Dice) -> list[Pieces]:

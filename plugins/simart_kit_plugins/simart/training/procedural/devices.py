@@ -9,11 +9,23 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray
 
-from .dice import Dice
-from .handles import knob
-from .outlines import ngon, rounded
-from .placing import Y, around, at, moved, pointed, rotation, turned
-from .primitives import Pieces, box, boxes, cylinder, loft, prism, revolve, rod, sheet, superquadric, torus
+from ....shapes.dice import Dice
+from ....shapes.handles import knob
+from ....shapes.outlines import ngon, rounded
+from ....shapes.placing import Y, around, at, moved, pointed, rotation, turned
+from ....shapes.primitives import (
+    Pieces,
+    box,
+    boxes,
+    cylinder,
+    loft,
+    prism,
+    revolve,
+    rod,
+    sheet,
+    superquadric,
+    torus,
+)
 
 _STICK = np.array([[0, 0], [0.004, 0], [0.004, 0.008], [0.009, 0.01], [0.008, 0.013], [0, 0.012]])
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from .dice import Dice
-from .outlines import SQUARE, ngon, rounded
-from .placing import Y, around, mirrored, moved, pointed, rotation, turned
-from .primitives import (
+from ....shapes.dice import Dice
+from ....shapes.outlines import SQUARE, ngon, rounded
+from ....shapes.placing import Y, around, mirrored, moved, pointed, rotation, turned
+from ....shapes.primitives import (
     Pieces,
     between,
     box,

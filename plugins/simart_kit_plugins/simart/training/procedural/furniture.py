@@ -8,13 +8,13 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray
 
-from .dice import Dice
-from .fronts import front
+from ....shapes.dice import Dice
+from ....shapes.fronts import front
+from ....shapes.legs import feet, star_base, wheels
+from ....shapes.outlines import SQUARE, ngon, rounded
+from ....shapes.placing import at, mirrored, moved, rotation, turned
+from ....shapes.primitives import Pieces, between, box, boxes, cylinder, prism, rod, sheet, superquadric, tube
 from .leaves import Opening, Style, door, drawer
-from .legs import feet, star_base, wheels
-from .outlines import SQUARE, ngon, rounded
-from .placing import at, mirrored, moved, rotation, turned
-from .primitives import Pieces, between, box, boxes, cylinder, prism, rod, sheet, superquadric, tube
 
 
 def table(dice: Dice) -> list[Pieces]:

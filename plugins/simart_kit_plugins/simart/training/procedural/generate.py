@@ -18,7 +18,13 @@ _SEEDS = 2**32
 
 
 def procedural_grids(
-    count: int, seed: int, resolution: int = 64, progress: Progress | None = None, *, first: int = 0
+    count: int,
+    seed: int,
+    resolution: int = 64,
+    progress: Progress | None = None,
+    *,
+    first: int = 0,
+    augmented: bool = False,
 ) -> Grids:
     """Objects first..first+count-1 of a seed: of each the whole in its cube, then its parts in the same cube.
 
@@ -30,6 +36,7 @@ def procedural_grids(
         resolution: voxels along an edge.
         progress: told the objects done and their number, after each.
         first: number of the first object, to make a long list in slices.
+        augmented: as for `procedural_object`.
 
     Raises:
         BadInputError: a number is out of its range.
@@ -40,7 +47,7 @@ def procedural_grids(
         )
     packed, names = [], []
     for number in range(first, first + count):
-        grids = object_grids(seed, number, resolution)
+        grids = object_grids(seed, number, resolution, augmented)
         packed.append(pack(grids))
         names += [f"object {number}", *(f"object {number} part {k}" for k in range(len(grids) - 1))]
         if progress is not None:
@@ -48,7 +55,7 @@ def procedural_grids(
     return Grids(resolution, np.concatenate(packed), tuple(names))
 
 
-def object_grids(seed: int, number: int, resolution: int = 64) -> BoolArray:
+def object_grids(seed: int, number: int, resolution: int = 64, augmented: bool = False) -> BoolArray:
     """(1 + P, R, R, R) an object in its smallest cube, then its parts; of a single part only the whole.
 
     Raises:
@@ -56,7 +63,7 @@ def object_grids(seed: int, number: int, resolution: int = 64) -> BoolArray:
     """
     if not 0 <= seed < _SEEDS:
         raise BadInputError(f"seed {seed}: give one of 0..{_SEEDS - 1}")
-    parts = procedural_object((seed, number))
+    parts = procedural_object((seed, number), augmented)
     corners = np.concatenate([part.reshape(-1, 3) for part in parts])
     frame = cube_frame(np.stack([corners.min(axis=0), corners.max(axis=0)]), resolution)
     occupancy = occupancies(parts, frame)

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .dice import Dice
-from .fronts import front
-from .handles import handle
-from .placing import moved, rotation, turned
-from .primitives import Pieces, boxes, open_box, rod
+from ....shapes.dice import Dice
+from ....shapes.fronts import front
+from ....shapes.handles import handle
+from ....shapes.placing import moved, rotation, turned
+from ....shapes.primitives import Pieces, boxes, open_box, rod
 
 
 @dataclass(frozen=True)

@@ -6,11 +6,11 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray
 
-from .dice import Dice
-from .fronts import frame, front, glazed
-from .handles import handle, knob
-from .placing import Y, Z, mirrored, moved, pointed, rotation, turned
-from .primitives import Pieces, box, cylinder, rod
+from ....shapes.dice import Dice
+from ....shapes.fronts import frame, front, glazed
+from ....shapes.handles import handle, knob
+from ....shapes.placing import Y, Z, mirrored, moved, pointed, rotation, turned
+from ....shapes.primitives import Pieces, box, cylinder, rod
 
 
 def opening(dice: Dice) -> list[Pieces]:

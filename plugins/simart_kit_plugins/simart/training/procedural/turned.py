@@ -6,11 +6,11 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray
 
-from .dice import Dice
-from .handles import handle, knob
-from .legs import star_base
-from .placing import moved, rotation, turned
-from .primitives import Pieces, cylinder, revolve, rod, superquadric, torus, tube
+from ....shapes.dice import Dice
+from ....shapes.handles import handle, knob
+from ....shapes.legs import star_base
+from ....shapes.placing import moved, rotation, turned
+from ....shapes.primitives import Pieces, cylinder, revolve, rod, superquadric, torus, tube
 
 
 def turned_object(dice: Dice) -> list[Pieces]:

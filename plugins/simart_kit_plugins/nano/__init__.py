@@ -1,0 +1,18 @@
+"""simart-nano: the small model that is shipped, and the objects it learns from."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from simart_kit.hookspecs import hookimpl
+
+if TYPE_CHECKING:
+    from simart_kit.hookspecs import RegisterCommand
+
+_COMMANDS = "simart_kit_plugins.nano.commands"
+
+
+@hookimpl
+def register_commands(register: RegisterCommand) -> None:
+    """Register `generate`."""
+    register("generate", f"{_COMMANDS}.generate:generate", "Write made-up articulated objects.")

@@ -1,0 +1,1 @@
+"""Made-up articulated objects: a data set for training, and a benchmark, that anybody may use."""

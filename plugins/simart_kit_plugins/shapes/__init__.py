@@ -1,0 +1,1 @@
+"""Surfaces made by numbers and dice: what generated objects are built of."""
