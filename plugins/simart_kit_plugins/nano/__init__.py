@@ -14,5 +14,6 @@ _COMMANDS = "simart_kit_plugins.nano.commands"
 
 @hookimpl
 def register_commands(register: RegisterCommand) -> None:
-    """Register `generate`."""
+    """Register `generate` and `train nano`."""
     register("generate", f"{_COMMANDS}.generate:generate", "Write made-up articulated objects.")
+    register("train nano", f"{_COMMANDS}.train_nano:train_nano", "Train the small model of parts and joints.")

@@ -1,0 +1,130 @@
+"""Lines and directions that a part may move about: from its boxes, its round shapes, and where it touches.
+
+A candidate has no sense: limits on both sides of 0 say which way it goes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from simart_kit.arrays import FloatArray, IntArray, units
+
+SLIDE, EDGE, MIDDLE, CENTER, CIRCLE, CONTACT = range(6)
+SOURCES = ("slide", "edge", "middle", "center", "circle", "contact")
+# The middle share of points along each direction that a box holds: a handle must not move it.
+_TRIM = 0.02
+# Frames whose axes all lie closer to another's give nothing new [cosine].
+_ALIKE = np.cos(np.deg2rad(4.0))
+# Lines through a box's section: its corners, the middles of its sides, and its center.
+_SPOTS = np.array(list(product((-1.0, 0.0, 1.0), repeat=2)))
+_SPOT_SOURCE = np.array([EDGE, MIDDLE, EDGE, MIDDLE, CENTER, MIDDLE, EDGE, MIDDLE, EDGE])
+
+
+@dataclass(frozen=True, eq=False)
+class Candidates:
+    """Joints that the shape suggests.
+
+    Attributes:
+        axis: (C, 3) unit.
+        origin: (C, 3) a point on the line; for slides the middle of the part's box.
+        source: (C,) index into `SOURCES`.
+        frame: (C,) 0 of the object's own axes, 1 of the part's.
+        misfit: (C,) of circles, how far the points are off it, as a share of its radius; else 0.
+    """
+
+    axis: FloatArray
+    origin: FloatArray
+    source: IntArray
+    frame: IntArray
+    misfit: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.axis)
+
+
+def candidates(points: FloatArray, normals: FloatArray, touching: FloatArray) -> Candidates:
+    """All candidates of a part.
+
+    Args:
+        points: (N, 3) of the part.
+        normals: (N, 3) unit, either sense.
+        touching: (M, 3) points of the part next to the rest of the object; may be none.
+    """
+    rows: list[tuple[FloatArray, FloatArray, int, int, float]] = []
+    for number, axes in enumerate(_frames(points, normals)):
+        rows += _of_box(points, axes, min(number, 1))
+        rows += _of_circles(points, axes, min(number, 1))
+    rows += _of_contact(touching)
+    axis, origin, source, frame, misfit = zip(*rows, strict=True)
+    return Candidates(np.stack(axis), np.stack(origin), np.array(source), np.array(frame), np.array(misfit))
+
+
+def _frames(points: FloatArray, normals: FloatArray) -> list[FloatArray]:
+    """(3, 3) axes as rows: the object's, then those of the part's normals and of its extent that differ."""
+    found = [np.eye(3)]
+    spread = points - points.mean(axis=0)
+    for scatter in (normals.T @ normals, spread.T @ spread):
+        axes = np.linalg.eigh(scatter)[1].T[::-1]
+        if all(np.abs(axes @ known.T).max(axis=1).min() < _ALIKE for known in found):
+            found.append(axes)
+    return found
+
+
+def _of_box(
+    points: FloatArray, axes: FloatArray, frame: int
+) -> list[tuple[FloatArray, FloatArray, int, int, float]]:
+    """Slides along the axes of a box, and lines along them through its section."""
+    low, high = np.quantile(points @ axes.T, [_TRIM, 1 - _TRIM], axis=0)
+    middle, half = (low + high) / 2, (high - low) / 2
+    rows = [(axes[k], middle @ axes, SLIDE, frame, 0.0) for k in range(3)]
+    for k in range(3):
+        across = [(k + 1) % 3, (k + 2) % 3]
+        for spot, source in zip(_SPOTS, _SPOT_SOURCE, strict=True):
+            place = middle.copy()
+            place[across] += spot * half[across]
+            rows.append((axes[k], place @ axes, int(source), frame, 0.0))
+    return rows
+
+
+def _of_circles(
+    points: FloatArray, axes: FloatArray, frame: int
+) -> list[tuple[FloatArray, FloatArray, int, int, float]]:
+    """Axes of circles fitted to the points as seen along each axis."""
+    rows = []
+    for k in range(3):
+        flat = points @ axes[[(k + 1) % 3, (k + 2) % 3]].T
+        center, misfit = fitted_circle(flat)
+        place = center @ axes[[(k + 1) % 3, (k + 2) % 3]] + np.median(points @ axes[k]) * axes[k]
+        rows.append((axes[k], place, CIRCLE, frame, misfit))
+    return rows
+
+
+def fitted_circle(flat: FloatArray) -> tuple[FloatArray, float]:
+    """(2,) center of a circle about (N, 2) points, and how far these are off it as a share of its radius.
+
+    By Kasa's linear least squares over the points of the outer half, which are the rim of a disc.
+    """
+    away = np.linalg.norm(flat - flat.mean(axis=0), axis=1)
+    rim = flat[away >= np.median(away)]
+    start = rim.mean(axis=0)
+    shifted = rim - start
+    matrix = np.column_stack([2 * shifted, np.ones(len(rim))])
+    solution = np.linalg.lstsq(matrix, (shifted**2).sum(axis=1), rcond=None)[0]
+    radius = float(np.sqrt(max(solution[2] + solution[:2] @ solution[:2], 1e-12)))
+    if radius > 4 * max(float(away.max()), 1e-9):  # nearly a straight line
+        return flat.mean(axis=0), 1.0
+    off = np.linalg.norm(shifted - solution[:2], axis=1) - radius
+    return solution[:2] + start, float(np.sqrt(np.mean(off**2))) / radius
+
+
+def _of_contact(touching: FloatArray) -> list[tuple[FloatArray, FloatArray, int, int, float]]:
+    """Lines through the middle of where the part touches the rest: along it, and along the object's axes."""
+    if len(touching) < 3:
+        return []
+    middle = touching.mean(axis=0)
+    spread = touching - middle
+    along = units(np.linalg.eigh(spread.T @ spread)[1].T[-1:])[0]
+    return [(axis, middle, CONTACT, 0, 0.0) for axis in (along, *np.eye(3))]

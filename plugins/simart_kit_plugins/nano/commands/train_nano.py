@@ -1,0 +1,168 @@
+"""`simart-kit train nano`."""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from simart_kit.cli.common import print_json, print_rows, stdout_kept
+from simart_kit.cli.options import Json, Verbose
+from simart_kit.errors import BadInputError
+
+if TYPE_CHECKING:
+    from ..network import NanoNetwork
+    from ..training.loop import NanoRow
+    from ..training.plan import TrainingPlan
+    from ..training.pool import Shard
+    from ..training.scores import NanoScore
+
+Run = Annotated[Path, typer.Option("--run", metavar="DIR", help="Folder of the run.")]
+Objects = Annotated[int | None, typer.Option(min=1, metavar="N", help="Made-up objects to train on.")]
+Steps = Annotated[int | None, typer.Option(min=1, metavar="N", help="Steps of training.")]
+Batch = Annotated[int | None, typer.Option(min=1, metavar="N", help="Objects a step.")]
+HeldOut = Annotated[int | None, typer.Option(min=1, metavar="N", help="Objects to judge on.")]
+Rate = Annotated[float | None, typer.Option(metavar="X", help="Step size of AdamW.")]
+Seed = Annotated[int | None, typer.Option(min=0, metavar="N", help="Decides all that is random.")]
+Device = Annotated[str | None, typer.Option(metavar="cpu|cuda", help="Where to compute; also cuda:N.")]
+Precision = Annotated[str | None, typer.Option(metavar="fp32|bf16", help="Arithmetic of the network.")]
+Processes = Annotated[
+    int | None, typer.Option(min=1, metavar="N", help="Make objects with so many processes; default: all.")
+]
+Resume = Annotated[bool, typer.Option("--resume", help="Go on from the run's last checkpoint.")]
+Evaluate = Annotated[bool, typer.Option("--evaluate", help="Only judge what the run has so far.")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but the result.")]
+_HEAD = ("", "objects", "loss", "pairs", "pieces", "kind", "candidate", "category")
+
+
+def train_nano(
+    run: Run,
+    objects: Objects = None,
+    steps: Steps = None,
+    batch_size: Batch = None,
+    held_out: HeldOut = None,
+    learning_rate: Rate = None,
+    seed: Seed = None,
+    device: Device = None,
+    precision: Precision = None,
+    processes: Processes = None,
+    resume: Resume = False,
+    evaluate: Evaluate = False,
+    json: Json = False,
+    verbose: Verbose = False,
+    quiet: Quiet = False,
+) -> None:
+    """Train the small model that finds parts and joints, on made-up objects.
+
+    The objects are made first and kept in the run's folder. A run that was stopped goes on when the same
+    command is given again with --resume. Twelve categories are never trained on, and judged apart.
+    """
+    changes = {
+        "objects": objects,
+        "steps": steps,
+        "batch_size": batch_size,
+        "held_out": held_out,
+        "learning_rate": learning_rate,
+        "seed": seed,
+        "device": device,
+        "precision": precision,
+    }
+    with stdout_kept(json):
+        plan = _plan({name: value for name, value in changes.items() if value is not None})
+        _check(run, resume, evaluate)
+        scores = _performed(plan, run, processes or os.cpu_count() or 1, evaluate, quiet)
+    if json:
+        print_json({"ok": True, "run": str(run), "scores": {k: asdict(v) for k, v in scores.items()}})
+        return
+    print_rows([_HEAD, *(_cells(name, found) for name, found in scores.items())])
+    print("shares right: pairs of pieces, pieces that move, kind and first candidate of parts, categories")
+
+
+def _plan(changes: dict[str, object]) -> TrainingPlan:
+    from pydantic import ValidationError
+
+    from ..training.plan import TrainingPlan
+
+    try:
+        return TrainingPlan.model_validate(changes)
+    except ValidationError as error:
+        told = "; ".join(f"{'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors())
+        raise BadInputError(f"training options: {told}") from error
+
+
+def _check(run: Path, resume: bool, evaluate: bool) -> None:
+    from ..training import checkpoint
+
+    if run.is_file():
+        raise BadInputError(f"{run} is a file: choose a folder")
+    if evaluate and not checkpoint.exists(run):
+        raise BadInputError(f"{run} has no checkpoint to judge: train it first")
+    if checkpoint.exists(run) and not (resume or evaluate):
+        raise BadInputError(f"{run} has a run already: go on with --resume, or choose another --run")
+
+
+def _performed(
+    plan: TrainingPlan, run: Path, processes: int, evaluate: bool, quiet: bool
+) -> dict[str, NanoScore]:
+    from simart_kit.output import claimed
+
+    from ..training import pool
+    from ..training.loop import train, with_names
+    from ..training.scores import score
+
+    files = {use: pool.shards(plan, run / "objects", use) for use in (pool.TRAIN, pool.SEEN, pool.UNSEEN)}
+    run.mkdir(parents=True, exist_ok=True)
+    with claimed(run):
+        _make([shard for some in files.values() for shard in some], processes, quiet)
+        examples = pool.read(files[pool.TRAIN])
+        plan = with_names(plan, examples)
+        network = _mean(plan, run) if evaluate else train(plan, examples, run, _Printer(plan, quiet))
+    judged = {"categories trained on": pool.SEEN, "unseen categories": pool.UNSEEN}
+    return {name: score(network, pool.read(files[use])) for name, use in judged.items() if files[use]}
+
+
+def _make(files: list[Shard], processes: int, quiet: bool) -> None:
+    from ..training.pool import make
+
+    def progress(done: int, of: int) -> None:
+        if not quiet:
+            print(f"objects made: {done} of {of}", file=sys.stderr, flush=True)
+
+    make(files, processes, progress)
+
+
+def _mean(plan: TrainingPlan, run: Path) -> NanoNetwork:
+    from ..training import checkpoint
+
+    state = checkpoint.load(plan, run)
+    state.network.load_state_dict(state.mean)
+    return state.network.eval()
+
+
+class _Printer:
+    """Prints rows of the log on stderr, and how long it still takes."""
+
+    def __init__(self, plan: TrainingPlan, quiet: bool) -> None:
+        self._plan, self._quiet = plan, quiet
+        self._first: NanoRow | None = None
+
+    def __call__(self, row: NanoRow) -> None:
+        if self._quiet:
+            return
+        self._first = self._first or row
+        steps, seconds = row.step - self._first.step, row.seconds - self._first.seconds
+        left = f"  {seconds / steps * (self._plan.steps - row.step) / 60:.0f} min left" if steps else ""
+        terms = " ".join(f"{name} {value:.3f}" for name, value in row.terms.items())
+        text = (
+            f"step {row.step}/{self._plan.steps}  loss {row.total:.3f} ({terms})  {row.seconds:.0f} s{left}"
+        )
+        print(text, file=sys.stderr, flush=True)
+
+
+def _cells(name: str, found: NanoScore) -> tuple[str, ...]:
+    shares = (found.together, found.moves, found.kind, found.candidate, found.category)
+    return (name, str(found.objects), f"{found.loss:.3f}", *(f"{share:.3f}" for share in shares))

@@ -1,0 +1,108 @@
+"""What speaks for each joint candidate: numbers that the network weighs."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from simart_kit.arrays import BoolArray, FloatArray, units
+
+from .candidates import SLIDE, SOURCES, Candidates
+
+# Points of a part that a sweep moves, and cells along an edge of the grid of what is in the way.
+_SWEPT, _CELLS = 64, 40
+# Trial positions: turns [rad], and slides as shares of the part's own extent.
+_TURNS = np.deg2rad([-70.0, -15.0, 15.0, 70.0])
+_SHIFTS = np.array([-0.8, -0.2, 0.2, 0.8])
+# Points of the part this near to the rest touch it.
+TOUCHING = 0.02
+COUNT = len(SOURCES) + 2 + 3 + 2 + 3 + 3 + 5 + 4
+
+
+def evidence(found: Candidates, part: FloatArray, rest: FloatArray, gap: FloatArray) -> FloatArray:
+    """(C, COUNT) of each candidate, all about -1..1.
+
+    Args:
+        found: candidates of the part.
+        part: (N, 3) points of the part; the object's longest side is 1.
+        rest: (M, 3) points of all else; may be none.
+        gap: (N,) from each point of the part to the nearest of the rest, at most 1.
+    """
+    low, high = part.min(axis=0), part.max(axis=0)
+    middle, size = (low + high) / 2, max(float((high - low).max()), 1e-6)
+    near = part[gap < max(TOUCHING, float(np.quantile(gap, 0.02)))]
+    contact = near.mean(axis=0)
+    slide = (found.source == SLIDE)[:, None]
+    offset = np.where(slide, 0, _across(found, middle))
+    to_contact = np.where(slide, 0, _across(found, contact))
+    radial = part[None] - found.origin[:, None]
+    along = np.einsum("cnk,ck->cn", radial, found.axis)
+    radius = np.sqrt(np.maximum((radial**2).sum(axis=2) - along**2, 0))
+    contact_along = (near - contact) @ found.axis.T
+    numbers = [
+        np.eye(len(SOURCES))[found.source],
+        np.eye(2)[found.frame],
+        np.abs(found.axis),
+        np.column_stack([np.ptp(along, axis=1), radius.max(axis=1)]),
+        np.clip(np.abs(offset) / size, 0, 2),
+        np.clip(np.abs(to_contact) / size, 0, 2),
+        np.column_stack(
+            [
+                np.clip(np.linalg.norm(to_contact, axis=1) / size, 0, 2),
+                np.ptp(contact_along, axis=0) / size,
+                found.misfit,
+                radius.std(axis=1) / np.maximum(radius.mean(axis=1), 1e-6),
+                offset @ [0, 0, 1] / size,
+            ]
+        ),
+        sweep(found, part, rest),
+    ]
+    return np.concatenate(numbers, axis=1).astype(np.float32)
+
+
+def sweep(found: Candidates, part: FloatArray, rest: FloatArray) -> FloatArray:
+    """(C, 4) share of the part's points that a move drives into the rest, at `_TURNS` or `_SHIFTS`.
+
+    What touches at rest does not count: cells with points of the part, and those beside them, are free.
+    """
+    chosen = part[np.linspace(0, len(part) - 1, min(_SWEPT, len(part))).astype(np.int64)]
+    blocked = _blocked(part, rest)
+    radial = chosen[None] - found.origin[:, None]
+    along = np.einsum("cnk,ck->cn", radial, found.axis)
+    axis = found.axis[:, None]
+    straight = along[..., None] * axis
+    across, turned = radial - straight, np.cross(axis, radial)
+    extent = np.ptp(along, axis=1)[:, None, None]
+    slide = (found.source == SLIDE)[:, None, None]
+    shares = []
+    for turn, shift in zip(_TURNS, _SHIFTS, strict=True):
+        moved = straight + np.cos(turn) * across + np.sin(turn) * turned + found.origin[:, None]
+        moved = np.where(slide, chosen[None] + shift * extent * axis, moved)
+        cells = np.clip(np.floor((moved + 1) * (_CELLS / 2)).astype(np.int64), 0, _CELLS - 1)
+        shares.append(blocked[cells[..., 0], cells[..., 1], cells[..., 2]].mean(axis=1))
+    return np.stack(shares, axis=1)
+
+
+def _blocked(part: FloatArray, rest: FloatArray) -> BoolArray:
+    """(_CELLS,) * 3 cells of the cube -1..1 that the rest is in, none of them beside the part."""
+    free = _cells(part)
+    for axis in range(3):
+        grid = np.moveaxis(free.copy(), axis, 0)
+        along = np.moveaxis(free, axis, 0)
+        along[1:] |= grid[:-1]
+        along[:-1] |= grid[1:]
+    return _cells(rest) & ~free
+
+
+def _cells(points: FloatArray) -> BoolArray:
+    """(_CELLS,) * 3 cells of the cube -1..1 that have a point."""
+    grid = np.zeros((_CELLS,) * 3, dtype=np.bool_)
+    cells = np.clip(np.floor((points + 1) * (_CELLS / 2)).astype(np.int64), 0, _CELLS - 1)
+    grid[tuple(cells.T)] = True
+    return grid
+
+
+def _across(found: Candidates, point: FloatArray) -> FloatArray:
+    """(C, 3) from the nearest point of each line to a point."""
+    away = point - found.origin
+    axis = units(found.axis)
+    return np.asarray(away - (away * axis).sum(axis=1, keepdims=True) * axis)

@@ -1,0 +1,163 @@
+"""Stored examples as batches of tensors, and what the network should have said."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from simart_kit.arrays import Float32Array, FloatArray
+
+from .config import NanoConfig
+from .network import Batch
+from .store import Stored
+
+
+@dataclass(frozen=True, eq=False)
+class Targets:
+    """What is right for a `Batch`.
+
+    Attributes:
+        part: (B, S) part of each piece; 0 is the body, -1 is padding.
+        kind: (B, S) how the piece's part moves; -1 where it does not.
+        label: (B, S) what the piece's part is called; -1 for the body and padding.
+        category: (B,).
+        size: (B,) natural logarithm of the longest side [m].
+        owner: (P,) object of each moving part.
+        share: (P, S) how much of the part each piece is.
+        numbers: (P, C, COUNT) evidence.
+        real: (P, C) bool.
+        part_kind: (P,).
+        right: (P, C) 1, -1 or 0.
+        travel: (P, 2) about the true axis [rad | sides of the object].
+        parent: (P,) row of the part that carries it; -1 for the body.
+    """
+
+    part: Tensor
+    kind: Tensor
+    label: Tensor
+    category: Tensor
+    size: Tensor
+    owner: Tensor
+    share: Tensor
+    numbers: Tensor
+    real: Tensor
+    part_kind: Tensor
+    right: Tensor
+    travel: Tensor
+    parent: Tensor
+
+    def to(self, device: torch.device | str) -> Targets:
+        """On another device."""
+        return Targets(*(getattr(self, field.name).to(device) for field in fields(self)))
+
+
+def batch_of(examples: Sequence[Stored]) -> Batch:
+    """Examples side by side."""
+    most = max(len(e.own) for e in examples)
+    count = len(examples)
+    numbers = np.zeros((count, most, examples[0].own.shape[1]), dtype=np.float32)
+    pairs = np.zeros((count, most, most, 7), dtype=np.float32)
+    there = np.zeros((count, most), dtype=np.bool_)
+    points, owner = [], []
+    for row, e in enumerate(examples):
+        size = len(e.own)
+        numbers[row, :size], there[row, :size] = e.own, True
+        pairs[row, :size, :size] = pair_numbers(e.own, e.gap)
+        points.append(point_numbers(e))
+        owner.append(e.piece.astype(np.int64) + row * most)
+    return Batch(
+        torch.from_numpy(np.concatenate(points)),
+        torch.from_numpy(np.concatenate(owner)),
+        torch.from_numpy(numbers),
+        torch.from_numpy(pairs),
+        torch.from_numpy(there),
+    )
+
+
+def point_numbers(e: Stored) -> FloatArray:
+    """(N, POINT_NUMBERS): place, place in the piece, direction without sense, colour."""
+    points, normals = e.points.astype(np.float32), e.normals.astype(np.float32)
+    x, y, z = normals.T
+    facing = np.stack([x * x, y * y, z * z, x * y, x * z, y * z], axis=1)
+    inside = 4 * (points - e.own[e.piece, :3])
+    return np.concatenate([points, inside, facing, e.colors.astype(np.float32) - 0.5], axis=1)
+
+
+def pair_numbers(own: Float32Array, gap: Float32Array) -> FloatArray:
+    """(S, S, PAIR_NUMBERS): how near, how far apart, and how alike in colour, direction and size."""
+    near = gap.astype(np.float32)
+    middle = np.linalg.norm(own[:, None, :3] - own[None, :, :3], axis=2)
+    color = np.linalg.norm(own[:, None, 18:21] - own[None, :, 18:21], axis=2)
+    facing = np.linalg.norm(own[:, None, 12:18] - own[None, :, 12:18], axis=2)
+    area = own[:, None, 21] - own[None, :, 21]
+    same = np.broadcast_to(np.eye(len(own), dtype=np.float32), near.shape)
+    numbers = [np.exp(-near / 0.004), np.exp(-near / 0.02), middle, np.exp(-8 * color), facing, area, same]
+    return np.stack(numbers, axis=2).astype(np.float32)
+
+
+def targets_of(examples: Sequence[Stored], config: NanoConfig) -> Targets:
+    """What is right for `batch_of` the same examples."""
+    most = max(len(e.own) for e in examples)
+    widest = max([int(c) for e in examples for c in e.candidates], default=1)
+    labels = {label: k for k, label in enumerate(config.labels, start=1)}
+    categories = {name: k for k, name in enumerate(config.categories, start=1)}
+    part = np.full((len(examples), most), -1)
+    kind, label = part.copy(), part.copy()
+    rows: list[tuple[Any, ...]] = []
+    for row, e in enumerate(examples):
+        size, first = len(e.own), len(rows)
+        part[row, :size] = e.part
+        starts = np.concatenate([[0], np.cumsum(e.candidates)])
+        area = np.exp((e.own[:, 21] - 1) * 6)
+        carried = {int(n): first + k for k, n in enumerate(e.number)}
+        for k, n in enumerate(e.number):
+            mine = e.part == n
+            kind[row, :size][mine] = e.kind[k]
+            label[row, :size][mine] = labels.get(str(e.label[k]), 0)
+            share = np.zeros(most, dtype=np.float32)
+            share[:size] = mine * area
+            held = slice(starts[k], starts[k + 1])
+            numbers = np.zeros((widest, e.numbers.shape[1]), dtype=np.float32)
+            right, real = np.zeros(widest, dtype=np.float32), np.zeros(widest, dtype=np.bool_)
+            own = starts[k + 1] - starts[k]
+            numbers[:own], right[:own], real[:own] = e.numbers[held], e.right[held], True
+            parent = carried.get(int(e.parent[k]), -1)
+            rows.append((row, share / share.sum(), numbers, real, right, int(e.kind[k]), e.travel[k], parent))
+    columns = [np.array(column) for column in zip(*rows, strict=True)] if rows else _no_parts(most, examples)
+    owner, shares, evidence, real_, right_, part_kind, travel, parent_ = map(torch.from_numpy, columns)
+    known = [categories.get(e.category, 0) for e in examples]
+    return Targets(
+        torch.from_numpy(part),
+        torch.from_numpy(kind),
+        torch.from_numpy(label),
+        torch.tensor(known),
+        torch.tensor([float(np.log(e.size)) for e in examples]),
+        owner,
+        shares.float(),
+        evidence,
+        real_,
+        part_kind,
+        right_,
+        travel.float(),
+        parent_,
+    )
+
+
+def _no_parts(most: int, examples: Sequence[Stored]) -> list[FloatArray]:
+    from .evidence import COUNT
+
+    return [
+        np.zeros(0, dtype=np.int64),
+        np.zeros((0, most), dtype=np.float32),
+        np.zeros((0, 1, COUNT), dtype=np.float32),
+        np.zeros((0, 1), dtype=np.bool_),
+        np.zeros((0, 1), dtype=np.float32),
+        np.zeros(0, dtype=np.int64),
+        np.zeros((0, 2), dtype=np.float32),
+        np.zeros(0, dtype=np.int64),
+    ]

@@ -1,0 +1,113 @@
+"""What each thing that the network says wrongly costs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor
+from torch.nn.functional import binary_cross_entropy_with_logits, cross_entropy, smooth_l1_loss
+
+from .learning import Targets
+from .network import NanoNetwork, PartReading, Reading
+from .truth import KINDS
+
+_PRISMATIC = KINDS.index("prismatic")
+_WEIGHTS = {
+    "together": 1.0,
+    "moves": 0.5,
+    "kind": 0.3,
+    "label": 0.2,
+    "category": 0.1,
+    "size": 0.1,
+    "part_kind": 0.5,
+    "right": 0.5,
+    "travel": 0.5,
+    "carrier": 0.2,
+}
+
+
+@dataclass(frozen=True, eq=False)
+class NanoLosses:
+    """Each term, not weighted, and the weighted sum.
+
+    Attributes:
+        terms: by name.
+        total: their weighted sum.
+    """
+
+    terms: dict[str, Tensor]
+    total: Tensor
+
+
+def losses(model: NanoNetwork, reading: Reading, targets: Targets) -> NanoLosses:
+    """All terms for a batch."""
+    read = model.parts(reading.tokens, targets.owner, targets.share, targets.numbers, targets.real)
+    real = targets.part >= 0
+    terms = {
+        "together": _together(reading.together, targets.part),
+        "moves": binary_cross_entropy_with_logits(reading.moves[real], (targets.part[real] > 0).float()),
+        "kind": _known(reading.kind, targets.kind),
+        "label": _known(reading.label, targets.label),
+        "category": cross_entropy(reading.category, targets.category),
+        "size": smooth_l1_loss(reading.size, targets.size),
+        **_of_parts(model, read, targets),
+    }
+    total = torch.stack([_WEIGHTS[name] * term for name, term in terms.items()]).sum()
+    return NanoLosses(terms, total)
+
+
+def _together(logits: Tensor, part: Tensor) -> Tensor:
+    """Cross-entropy over pairs of pieces; of each piece, partners and strangers count alike."""
+    real = part >= 0
+    pair = real[:, :, None] & real[:, None, :]
+    same = (part[:, :, None] == part[:, None, :]) & pair
+    other = pair & ~same
+    cost = binary_cross_entropy_with_logits(logits, same.float(), reduction="none")
+    partners = (cost * same).sum(2) / same.sum(2).clamp(min=1)
+    strangers = (cost * other).sum(2) / other.sum(2).clamp(min=1)
+    # A body of a hundred pieces must not outweigh a door of one: each part counts alike.
+    weight = 1 / same.sum(2).clamp(min=1).float()
+    per_object = ((partners + strangers) * weight * real).sum(1) / (weight * real).sum(1).clamp(min=1e-6)
+    return per_object.mean()
+
+
+def _of_parts(model: NanoNetwork, read: PartReading, targets: Targets) -> dict[str, Tensor]:
+    nothing = read.embedding.sum() * 0
+    if not len(targets.owner):
+        return dict.fromkeys(("part_kind", "right", "travel", "carrier"), nothing)
+    right = targets.right != 0
+    asked = right.any(1)
+    chance = read.right.float().log_softmax(1)
+    good = torch.logsumexp(chance.masked_fill(~right, -torch.inf), dim=1)
+    slide = (targets.part_kind == _PRISMATIC)[:, None, None]
+    limits = torch.where(slide, targets.travel[:, None], targets.travel[:, None] / torch.pi)
+    flipped = -limits.flip(2)
+    wanted = torch.where((targets.right < 0)[..., None], flipped, limits)
+    limited = right & (targets.travel.abs().sum(1) > 0)[:, None]
+    return {
+        "part_kind": cross_entropy(read.kind, targets.part_kind),
+        "right": -good[asked].mean() if asked.any() else nothing,
+        "travel": smooth_l1_loss(read.travel[limited], wanted.expand_as(read.travel)[limited], beta=0.1)
+        if limited.any()
+        else nothing,
+        "carrier": _carrier(model, read.embedding, targets),
+    }
+
+
+def _carrier(model: NanoNetwork, embedding: Tensor, targets: Targets) -> Tensor:
+    """Cross-entropy of each part's carrier among the parts of its object and the body, whose logit is 0."""
+    logits = model.carriers(embedding, embedding)
+    stranger = targets.owner[:, None] != targets.owner[None]
+    stranger = stranger | torch.eye(len(stranger), dtype=torch.bool, device=stranger.device)
+    logits = logits.masked_fill(stranger, -torch.inf)
+    body = logits.new_zeros(len(logits), 1)
+    return cross_entropy(torch.cat([body, logits], dim=1), targets.parent + 1)
+
+
+def _known(logits: Tensor, wanted: Tensor) -> Tensor:
+    """Cross-entropy where something is wanted, 0 where nothing is."""
+    asked = wanted >= 0
+    if not asked.any():
+        return logits.sum() * 0
+    return cross_entropy(logits[asked], wanted[asked])

@@ -1,0 +1,90 @@
+"""What the network is given of an object: its cloud, its pieces, and how near these are to each other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from simart_kit.arrays import Float32Array, FloatArray
+
+from .cloud import Cloud
+
+# Pairs of points farther apart tell nothing of contact.
+_REACH = 0.06
+_NEIGHBOURS = 8
+PIECE_NUMBERS = 3 + 3 + 6 + 6 + 3 + 2
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """Numbers of pieces and of pairs of them.
+
+    Attributes:
+        own: (S, PIECE_NUMBERS) float32: middle, half size, spread, directions, colour, area and flatness.
+        gap: (S, S) float32 least distance of sampled points; `_REACH` where it is more.
+    """
+
+    own: Float32Array
+    gap: Float32Array
+
+
+def pieces_of(cloud: Cloud) -> Pieces:
+    """The numbers of a cloud's pieces."""
+    low, high = _extremes(cloud)
+    share = np.bincount(cloud.piece, cloud.area, cloud.count)
+    middle = _means(cloud.points, cloud)
+    spread = _means(_products(cloud.points - middle[cloud.piece]), cloud)
+    facing = _means(_products(cloud.normals), cloud)
+    sizes = np.sqrt(np.abs(spread)) * np.sign(spread)
+    flat = facing[:, :3].max(axis=1)
+    own = np.column_stack(
+        [
+            (low + high) / 2,
+            (high - low) / 2,
+            sizes * 2,
+            facing,
+            _means(cloud.colors, cloud) - 0.5,
+            np.log(share + 1e-5) / 6 + 1,
+            flat,
+        ]
+    )
+    assert own.shape[1] == PIECE_NUMBERS
+    return Pieces(own.astype(np.float32), _gaps(cloud))
+
+
+def _gaps(cloud: Cloud) -> Float32Array:
+    """(S, S) by the nearest few points of each point."""
+    from scipy.spatial import cKDTree
+
+    count = min(_NEIGHBOURS + 1, len(cloud.points))
+    found_near = cKDTree(cloud.points).query(cloud.points, k=range(1, count + 1), distance_upper_bound=_REACH)
+    near, other = (np.asarray(value) for value in found_near)
+    here = np.repeat(cloud.piece, near.shape[1])
+    flat, found = near.ravel(), np.isfinite(near.ravel())
+    there = cloud.piece[np.where(found, other.ravel(), 0)]
+    gap = np.full((cloud.count, cloud.count), _REACH)
+    np.minimum.at(gap, (here[found], there[found]), flat[found])
+    gap = np.minimum(gap, gap.T)
+    np.fill_diagonal(gap, 0)
+    return np.asarray(gap, dtype=np.float32)
+
+
+def _extremes(cloud: Cloud) -> tuple[FloatArray, FloatArray]:
+    """(S, 3) lowest and highest corner of each piece."""
+    order = np.argsort(cloud.piece, kind="stable")
+    starts = np.searchsorted(cloud.piece[order], np.arange(cloud.count))
+    points = cloud.points[order]
+    return np.minimum.reduceat(points, starts, axis=0), np.maximum.reduceat(points, starts, axis=0)
+
+
+def _means(values: FloatArray, cloud: Cloud) -> FloatArray:
+    """(S, K) mean of (N, K) over the points of each piece."""
+    sums = [np.bincount(cloud.piece, column, cloud.count) for column in values.T]
+    return np.asarray(np.stack(sums, axis=1) / np.bincount(cloud.piece, minlength=cloud.count)[:, None])
+
+
+def _products(vectors: FloatArray) -> FloatArray:
+    """(N, 6) xx, yy, zz, xy, xz, yz."""
+    x, y, z = vectors.T
+    return np.column_stack([x * x, y * y, z * z, x * y, x * z, y * z])

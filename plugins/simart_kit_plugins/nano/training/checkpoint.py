@@ -1,0 +1,141 @@
+"""A training's state on disk: network, its running mean, optimiser, plan and step; no pickle."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+import torch
+from torch import Tensor
+from torch.optim import AdamW
+
+from simart_kit.errors import BadInputError, OutputError
+
+from ..network import NanoNetwork
+from .plan import TrainingPlan
+
+FOLDER, TENSORS, STATE = "checkpoint", "state.safetensors", "state.json"
+# What a run may change when it goes on: it decides what is written, and where it is computed.
+_FREE = {"checkpoint_every", "log_every", "device"}
+# A ValidationError is a ValueError.
+_DAMAGE = (OSError, ValueError, KeyError, TypeError, RuntimeError)
+_MOMENTS = ("step", "exp_avg", "exp_avg_sq")
+
+
+@dataclass(eq=False)
+class Progressing:
+    """What changes from step to step.
+
+    Attributes:
+        network: in training.
+        mean: running mean of its weights, by name.
+        optimiser: of its weights.
+        step: steps done.
+        seconds: that they took [s].
+    """
+
+    network: NanoNetwork
+    mean: dict[str, Tensor]
+    optimiser: AdamW
+    step: int = 0
+    seconds: float = 0.0
+
+
+def begun(plan: TrainingPlan) -> Progressing:
+    """The state before the first step."""
+    network = NanoNetwork(plan.network, plan.seed).to(plan.device)
+    optimiser = optimiser_of(network, plan)
+    return Progressing(network, {n: t.clone() for n, t in network.state_dict().items()}, optimiser)
+
+
+def optimiser_of(network: NanoNetwork, plan: TrainingPlan) -> AdamW:
+    """AdamW with all its state there from the beginning, so that every state has the same names."""
+    decayed = [p for p in network.parameters() if p.ndim > 1]
+    others = [p for p in network.parameters() if p.ndim <= 1]
+    groups = [
+        {"params": decayed, "weight_decay": plan.weight_decay},
+        {"params": others, "weight_decay": 0.0},
+    ]
+    optimiser = AdamW(groups, lr=plan.learning_rate)
+    for parameter in network.parameters():
+        first, second = torch.zeros_like(parameter), torch.zeros_like(parameter)
+        optimiser.state[parameter] = {"step": torch.tensor(0.0), "exp_avg": first, "exp_avg_sq": second}
+    return optimiser
+
+
+def save(state: Progressing, plan: TrainingPlan, run: Path) -> None:
+    """Write the state in place of the last one, in one move.
+
+    Raises:
+        OutputError: it cannot be written.
+    """
+    from safetensors.torch import save_file
+
+    target = run / FOLDER
+    partial, old = run / f"{FOLDER}.partial", run / f"{FOLDER}.old"
+    text = json.dumps({"step": state.step, "seconds": state.seconds, "plan": plan.model_dump(mode="json")})
+    try:
+        for stale in (partial, old):
+            shutil.rmtree(stale, ignore_errors=True)
+        partial.mkdir(parents=True)
+        save_file(
+            {name: t.detach().cpu().contiguous() for name, t in _tensors(state).items()}, partial / TENSORS
+        )
+        (partial / STATE).write_text(text + "\n", encoding="utf-8")
+        if target.exists():
+            target.rename(old)
+        partial.rename(target)
+        shutil.rmtree(old, ignore_errors=True)
+    except OSError as error:
+        raise OutputError(f"cannot write the checkpoint {target}: {error.strerror or error}") from error
+
+
+def exists(run: Path) -> bool:
+    """Whether a run has a checkpoint; one that was being replaced when the run was killed counts."""
+    return (run / FOLDER).is_dir() or (run / f"{FOLDER}.old").is_dir()
+
+
+def load(plan: TrainingPlan, run: Path) -> Progressing:
+    """Read the state of a run with this plan.
+
+    Raises:
+        BadInputError: it is damaged or of another plan.
+    """
+    from safetensors import SafetensorError
+    from safetensors.torch import load_file
+
+    folder = run / FOLDER if (run / FOLDER).is_dir() else run / f"{FOLDER}.old"
+    try:
+        table = json.loads((folder / STATE).read_text(encoding="utf-8"))
+        _check_same(TrainingPlan.model_validate_json(json.dumps(table["plan"])), plan, folder)
+        tensors = load_file(folder / TENSORS)
+        state = begun(plan)
+        with torch.no_grad():
+            for name, own in _tensors(state).items():
+                own.copy_(tensors[name])
+        state.step, state.seconds = int(table["step"]), float(table["seconds"])
+    except (*_DAMAGE, SafetensorError) as error:
+        kind = type(error).__name__
+        raise BadInputError(f"{folder} is damaged ({kind}): train into another folder") from error
+    return state
+
+
+def _tensors(state: Progressing) -> dict[str, Tensor]:
+    """All tensors by name; they are the state's own."""
+    found = {f"network.{name}": tensor for name, tensor in state.network.state_dict().items()}
+    found |= {f"mean.{name}": tensor for name, tensor in state.mean.items()}
+    for name, parameter in state.network.named_parameters():
+        found |= {f"{kind}.{name}": state.optimiser.state[parameter][kind] for kind in _MOMENTS}
+    return found
+
+
+def _check_same(then: TrainingPlan, now: TrainingPlan, folder: Path) -> None:
+    old, new = then.model_dump(), now.model_dump()
+    changed = [name for name in old if old[name] != new[name] and name not in _FREE]
+    if changed:
+        raise BadInputError(
+            f"{folder} is of another plan ({', '.join(changed)} differ): go on with that one, "
+            "or train into another folder"
+        )
