@@ -7,9 +7,17 @@ from typing import TYPE_CHECKING
 from simart_kit.hookspecs import hookimpl
 
 if TYPE_CHECKING:
-    from simart_kit.hookspecs import RegisterCommand
+    from simart_kit.hookspecs import Register, RegisterCommand
 
 _COMMANDS = "simart_kit_plugins.nano.commands"
+
+
+@hookimpl
+def register_segmenters(register: Register) -> None:
+    """Register `nano`."""
+    from .segmenter import Nano
+
+    register(Nano)
 
 
 @hookimpl

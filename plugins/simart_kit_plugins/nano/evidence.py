@@ -29,7 +29,7 @@ def evidence(found: Candidates, part: FloatArray, rest: FloatArray, gap: FloatAr
     """
     low, high = part.min(axis=0), part.max(axis=0)
     middle, size = (low + high) / 2, max(float((high - low).max()), 1e-6)
-    near = part[gap < max(TOUCHING, float(np.quantile(gap, 0.02)))]
+    near = part[gap <= max(TOUCHING, float(np.quantile(gap, 0.02)))]
     contact = near.mean(axis=0)
     slide = (found.source == SLIDE)[:, None]
     offset = np.where(slide, 0, _across(found, middle))

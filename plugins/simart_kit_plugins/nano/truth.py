@@ -7,11 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from simart_kit.arrays import FloatArray, IntArray
+from simart_kit.asset import JointKind
 
 from .candidates import SLIDE, Candidates
 from .generate.objects import Motion
 
-KINDS = ("revolute", "continuous", "prismatic", "ball", "free")
+KINDS: tuple[JointKind, ...] = ("revolute", "continuous", "prismatic", "ball", "free")
 # Units of a candidate's error: of its axis [rad] and its line [sides of the object].
 _ANGLE, _LINE = np.deg2rad(8.0), 0.03
 # Below the first a candidate is right, beyond the last it is not; between, those nearly as good as the best.

@@ -59,7 +59,8 @@ def train_nano(
     """Train the small model that finds parts and joints, on made-up objects.
 
     The objects are made first and kept in the run's folder. A run that was stopped goes on when the same
-    command is given again with --resume. Twelve categories are never trained on, and judged apart.
+    command is given again with --resume. The model is in DIR/model at the end, or after --evaluate. Twelve
+    categories are never trained on, and judged apart.
     """
     changes = {
         "objects": objects,
@@ -113,6 +114,7 @@ def _performed(
     from ..training import pool
     from ..training.loop import train, with_names
     from ..training.scores import score
+    from ..weights import save_network
 
     files = {use: pool.shards(plan, run / "objects", use) for use in (pool.TRAIN, pool.SEEN, pool.UNSEEN)}
     run.mkdir(parents=True, exist_ok=True)
@@ -121,6 +123,7 @@ def _performed(
         examples = pool.read(files[pool.TRAIN])
         plan = with_names(plan, examples)
         network = _mean(plan, run) if evaluate else train(plan, examples, run, _Printer(plan, quiet))
+        save_network(network, run / "model")
     judged = {"categories trained on": pool.SEEN, "unseen categories": pool.UNSEEN}
     return {name: score(network, pool.read(files[use])) for name, use in judged.items() if files[use]}
 

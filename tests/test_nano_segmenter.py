@@ -1,0 +1,212 @@
+"""From a mesh to parts and joints: grouping, sampling, a network's words as joints, and its weights."""
+
+import numpy as np
+import pytest
+import torch
+from simart_kit_plugins.nano import predicting
+from simart_kit_plugins.nano.config import NanoConfig
+from simart_kit_plugins.nano.grouping import groups, piece_parts
+from simart_kit_plugins.nano.meshes import MOST_PIECES, mesh_cloud
+from simart_kit_plugins.nano.network import NanoNetwork, PartReading, Reading
+from simart_kit_plugins.nano.segmenter import Nano
+from simart_kit_plugins.nano.truth import KINDS
+from simart_kit_plugins.nano.weights import load_network, save_network
+
+from simart_kit.cli.main import run
+from simart_kit.errors import BadInputError
+from simart_kit.mesh import Mesh
+from simart_kit.recipe import read_options
+from simart_kit.segments import find_segments
+from simart_kit.srgb import linear_to_srgb, srgb_to_linear
+from simart_kit.testing.meshes import boxes_mesh, cabinet_asset
+
+TINY = {"channels": 16, "layers": 1, "heads": 2, "hidden": 16, "point_channels": 8, "pair_channels": 4}
+CONFIG = NanoConfig(**TINY, labels=("door", "drawer"), categories=("cabinet",))
+SURE = 12.0
+
+
+class Oracle(NanoNetwork):
+    """Says what the faces' true parts say, by the pieces that it is told of."""
+
+    def __init__(self, part, slides):
+        super().__init__(CONFIG, 0)
+        self.truth, self.slides = torch.as_tensor(part), slides
+
+    def forward(self, batch):
+        count = batch.there.shape[1]
+        same = self.truth[:, None] == self.truth[None]
+        label = torch.zeros(1, count, 3)
+        label[0, self.truth > 0, 1] = SURE
+        return Reading(
+            torch.zeros(1, count, 16),
+            (same.float() * 2 * SURE - SURE)[None],
+            ((self.truth > 0).float() * 2 * SURE - SURE)[None],
+            torch.zeros(1, count, len(KINDS)),
+            label,
+            torch.tensor([[0.0, SURE]]),
+            torch.tensor([0.5]),
+        )
+
+    def parts(self, tokens, owner, share, numbers, real):
+        kind = torch.zeros(len(owner), len(KINDS))
+        kind[:, KINDS.index("prismatic" if self.slides else "revolute")] = SURE
+        travel = torch.tensor([-0.5, 0.0]).expand(*real.shape, 2)
+        first = torch.zeros(real.shape).masked_fill(~real, -torch.inf)
+        first[:, 0] = 1.0
+        return PartReading(kind, first, travel, torch.zeros(len(owner), 16))
+
+    def carriers(self, child, parent):
+        return torch.full((len(child), len(parent)), -SURE)
+
+
+def test_groups_are_the_blocks_of_a_matrix_of_chances_the_surest_first():
+    part = np.array([0, 0, 1, 1, 2, 2, 2, 0])
+    together = np.where(part[:, None] == part[None], 0.9, 0.1)
+    moves = np.where(part > 0, 0.95, 0.02)
+    moves[part == 2] = 0.8
+    found = groups(moves, together, np.ones(8), least=0.3)
+    assert [group.pieces.tolist() for group in found] == [[2, 3], [4, 5, 6]]
+    assert found[0].score == pytest.approx(0.95 * 0.9)
+    assert piece_parts(found, 8).tolist() == [0, 0, 1, 1, 2, 2, 2, 0]
+    assert [group.pieces.tolist() for group in groups(moves, together, np.ones(8), least=0.8)] == [[2, 3]]
+    assert groups(np.zeros(8), together, np.ones(8), least=0.0) == []
+
+
+def test_where_all_pieces_move_the_largest_part_stands_still():
+    part = np.array([1, 1, 2])
+    together = np.where(part[:, None] == part[None], 0.9, 0.1)
+    found = groups(np.full(3, 0.9), together, np.array([1.0, 1.0, 5.0]), least=0.0)
+    assert [group.pieces.tolist() for group in found] == [[0, 1]]
+
+
+def test_a_lone_voice_does_not_pull_a_piece_from_its_part():
+    together = np.full((6, 6), 0.9)
+    together[0, 4] = together[4, 0] = 0.6
+    together[4, 1:4] = together[1:4, 4] = 0.1
+    np.fill_diagonal(together, 1)
+    found = groups(np.array([0.99, 0.9, 0.9, 0.9, 0.7, 0.1]), together, np.ones(6), least=0.0)
+    assert [group.pieces.tolist() for group in found] == [[0, 1, 2, 3], [4]]
+
+
+def seen(mesh):
+    return mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(0))
+
+
+def test_a_mesh_is_read_by_its_segments_in_a_cube_about_its_middle():
+    mesh = cabinet_asset().mesh
+    found = seen(mesh)
+    assert not found.skin
+    assert np.array_equal(found.face_piece, find_segments(mesh).face_segment)
+    assert np.allclose(
+        found.cloud.points * found.size + found.center,
+        np.clip(found.cloud.points * found.size + found.center, mesh.bounds[0] - 1e-9, mesh.bounds[1] + 1e-9),
+    )
+    assert np.abs(found.cloud.points).max() <= 0.5 + 1e-9
+    assert found.cloud.area.sum() == pytest.approx(1)
+
+
+def test_colours_are_those_of_the_vertices():
+    mesh = boxes_mesh([((0, 0, 0), (1, 1, 1)), ((2, 0, 0), (3, 1, 1))])
+    colors = np.full((len(mesh.vertices), 4), 255, dtype=np.uint8)
+    colors[len(colors) // 2 :] = (200, 100, 50, 255)
+    painted = Mesh(mesh.vertices, mesh.faces, colors=colors)
+    cloud = seen(painted).cloud
+    right = cloud.points[:, 0] > 0
+    # Colours are multiplied by the material's factor, which is linear.
+    factor = painted.materials[0].base_color[:3]
+    expected = [
+        linear_to_srgb(factor * srgb_to_linear(np.array(c) / 255)) for c in ((200, 100, 50), (255,) * 3)
+    ]
+    assert np.allclose(cloud.colors[right], expected[0], atol=0.005)
+    assert np.allclose(cloud.colors[~right], expected[1], atol=0.005)
+
+
+def test_one_skin_is_cut_into_patches_and_every_face_has_one():
+    mesh = boxes_mesh([((0, 0, 0), (1, 1, 1))])
+    found = seen(mesh)
+    assert found.skin
+    assert found.cloud.count > 100
+    assert len(found.face_piece) == 12
+    assert found.face_piece.max() < found.cloud.count
+
+
+def test_very_many_pieces_become_fewer_near_ones():
+    boxes = [((x, y, z), (x + 0.5, y + 0.5, z + 0.5)) for x in range(8) for y in range(8) for z in range(8)]
+    mesh = boxes_mesh(boxes)
+    found = seen(mesh)
+    assert find_segments(mesh).count == 512
+    assert found.cloud.count == MOST_PIECES
+    assert len(np.unique(found.face_piece)) == MOST_PIECES
+
+
+@pytest.mark.parametrize("slides", [False, True])
+def test_what_the_network_says_becomes_parts_and_joints_in_metres(tmp_path, monkeypatch, slides):
+    asset = cabinet_asset()
+    pieces = find_segments(asset.mesh).face_segment
+    part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
+    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_network", lambda folder: Oracle(part, slides))
+    found = Nano(read_options(Nano, {"model": "any"})).segment(asset.mesh)
+    assert [guess.name for guess in found.parts] == ["body", "door", "door_2"]
+    # Parts are numbered by how sure the network is; which is which, their faces tell.
+    for number in (1, 2):
+        assert len(set(asset.face_part[found.face_part == number].tolist())) == 1
+    assert ((found.face_part == 0) == (asset.face_part == 0)).all()
+    size = float(np.ptp(asset.mesh.bounds, axis=0).max())
+    for joint, name in zip(found.joints, ("door", "door_2"), strict=True):
+        assert (joint.parent, joint.child) == ("body", name)
+        assert joint.kind == ("prismatic" if slides else "revolute")
+        # Limits of -0.5..0 about a candidate are 0..0.5 about its reverse.
+        expected = 0.5 * size if slides else 0.5 * np.pi
+        assert (joint.limits.lower, joint.limits.upper) == (0, pytest.approx(expected))
+    assert any("taken for a cabinet" in note.text for note in found.notes)
+
+
+def test_parts_that_carry_each_other_in_a_ring_hang_on_the_body():
+    network = NanoNetwork(CONFIG, 0)
+    logits = torch.tensor([[-9.0, 5.0, -9.0], [5.0, -9.0, -9.0], [5.0, -9.0, -9.0]])
+    network.carriers = lambda child, parent: logits.clone()
+    read = PartReading(*[torch.zeros(3, 1)] * 4)
+    assert predicting._carriers(network, read) == [0, 1, 1]
+
+
+def test_weights_come_back_in_half_precision_and_say_the_same(tmp_path):
+    network = NanoNetwork(CONFIG, 3).eval()
+    save_network(network, tmp_path / "model")
+    found = load_network(tmp_path / "model")
+    assert found.config == CONFIG
+    for name, tensor in network.state_dict().items():
+        assert torch.equal(found.state_dict()[name], tensor.half().float())
+    first = (tmp_path / "model" / "model.safetensors").read_bytes()
+    save_network(network, tmp_path / "again")
+    assert (tmp_path / "again" / "model.safetensors").read_bytes() == first
+
+
+@pytest.mark.parametrize(
+    ("damage", "told"),
+    [
+        (lambda f: (f / "config.json").unlink(), "cannot read"),
+        (lambda f: (f / "model.safetensors").write_bytes(b"no"), "holds no simart-nano"),
+        (lambda f: (f / "config.json").write_text("{}"), "holds no simart-nano"),
+        (
+            lambda f: (f / "config.json").write_text(
+                (f / "config.json").read_text().replace('"channels": 16', '"channels": 32')
+            ),
+            "of different ones",
+        ),
+    ],
+)
+def test_weights_that_do_not_fit_are_refused(tmp_path, damage, told):
+    save_network(NanoNetwork(CONFIG, 0), tmp_path / "model")
+    damage(tmp_path / "model")
+    with pytest.raises(BadInputError, match=told):
+        load_network(tmp_path / "model")
+
+
+def test_without_weights_the_command_says_how_to_get_some(tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    mesh = boxes_mesh([((0, 0, 0), (1, 1, 1)), ((2, 0, 0), (3, 1, 1))])
+    lines = [f"v {x} {y} {z}" for x, y, z in mesh.vertices]
+    lines += ["f " + " ".join(str(i + 1) for i in face) for face in mesh.faces]
+    (tmp_path / "two.obj").write_text("\n".join(lines))
+    assert run(["convert", "two.obj", "--recipe", "nano"]) == 1
+    assert "--set segmenter.options.model=RUN/model" in capfd.readouterr().err
