@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import torch
+from simart_kit_plugins.simart.ablation.autoencoder import start_from
 from simart_kit_plugins.simart.ablation.budget import shrunk
 from simart_kit_plugins.simart.ablation.coding import as_force_sparse, coding, coding_without, emptiness
 from simart_kit_plugins.simart.ablation.experiment import Ablation, Block, Row
@@ -19,6 +20,7 @@ from simart_kit_plugins.simart.training.config import TrainingConfig
 from simart_kit_plugins.simart.training.evaluation import evaluate
 from simart_kit_plugins.simart.training.grids import Grids, pack
 from simart_kit_plugins.simart.vqnano.config import VqNanoConfig
+from simart_kit_plugins.simart.vqvae.checkpoint import load_checkpoint
 from simart_kit_plugins.simart.vqvae.config import VqvaeConfig
 from simart_kit_plugins.simart.vqvae.usage import Usage
 
@@ -293,3 +295,20 @@ def test_the_verdict_gives_both_numbers_and_no_more_than_the_data():
     (line,) = told(row("zero", 3e-3, 2), row("force-sparse", 2e-3, 0))
     assert line.endswith(": train longer to compare the two.")
     assert "needs both rows" in told(row("zero", 1, 0), row("dense", 1, 0))[0]
+
+
+def test_all_rows_start_from_one_autoencoder_if_asked_to(home, capfd):
+    table = {"schema": 1, "model": "sparse-vqvae", "config": convolutional().model_dump(mode="json")}
+    (home / "conv.json").write_text(json.dumps({**table, "training": TRAINING}))
+    assert bench("--autoencoder", "3", config="conv.json") == 0
+    start = load_checkpoint(home / "out" / "autoencoder")
+    fresh = build_model(start.config, 0)
+    assert not torch.equal(start.encoder.input_layer.weight, fresh.encoder.input_layer.weight)
+    assert "from an autoencoder of 3 steps" in capfd.readouterr().out
+
+    begun = build_model(start.config.model_copy(update={"mode": "dense"}), 0)
+    start_from(begun, start)
+    same = zip(begun.decoder.parameters(), start.decoder.parameters(), strict=True)
+    assert all(torch.equal(mine, its) for mine, its in same)
+    assert bench("--autoencoder", "3", rows="zero", folder="nano") == 2
+    assert "vq-nano starts from principal components" in capfd.readouterr().err

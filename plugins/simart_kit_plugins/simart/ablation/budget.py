@@ -18,11 +18,13 @@ class Budget:
         training: its schedule, batch size and seed.
         grids: number of grids that there are to train on.
         fingerprint: of these grids.
+        autoencoder: steps of training encoder and decoder without a codebook, before all rows alike.
     """
 
     training: TrainingConfig
     grids: int
     fingerprint: str
+    autoencoder: int = 0
 
     @property
     def seen(self) -> int:

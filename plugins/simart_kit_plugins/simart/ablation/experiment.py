@@ -18,6 +18,7 @@ from ..training import checkpointing
 from ..training.grids import Grids
 from ..training.log import LOG_FILE, LogRow
 from ..training.loop import train
+from .autoencoder import start_from
 from .budget import Budget
 from .coding import Emptiness, as_force_sparse, coding, coding_without, emptiness
 from .judging import Judgement, judge
@@ -114,6 +115,7 @@ def perform(
     blocks: Sequence[Block],
     run: Path,
     watch: Watch,
+    start: VoxelModel | None = None,
 ) -> Ablation:
     """Train what is not trained yet, and judge all rows.
 
@@ -125,6 +127,7 @@ def perform(
         blocks: to judge on.
         run: has a folder for each row.
         watch: follows the training.
+        start: whose encoder and decoder all rows begin with, instead of random ones.
 
     Raises:
         BadInputError: a row was begun with another config, budget or other grids, or diverges.
@@ -141,6 +144,8 @@ def perform(
         for variant in sorted(variants, key=lambda v: checkpointing.latest(run / v.key) is None):
             folder, own = run / variant.key, configs[variant.key]
             model = build_model(own, budget.training.seed)
+            if start is not None:
+                start_from(model, start)
             train(model, grids, budget.training, folder, True, watch(variant, own))
             done[variant.key] = _trained(variant, model.eval(), grids, blocks, seconds_of(folder))
     kept = done[DENSE].kept if DENSE in done else None

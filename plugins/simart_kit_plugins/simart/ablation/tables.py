@@ -53,10 +53,11 @@ def budget_line(ablation: Ablation) -> str:
     """What each row was given, on one line."""
     budget = ablation.budget
     training = budget.training
+    start = f", from an autoencoder of {budget.autoencoder} steps" if budget.autoencoder else ""
     return (
         f"Each row: {training.stage1_steps} + {training.stage2_steps} steps of {training.batch_size} grids = "
         f"{budget.seen} grids seen, {budget.seen / budget.grids:.1f} times each of {budget.grids}; "
-        f"seed {training.seed}, {training.device}, {training.precision}"
+        f"seed {training.seed}, {training.device}, {training.precision}{start}"
     )
 
 

@@ -27,6 +27,7 @@ def document(ablation: Ablation, preset: str) -> dict[str, Any]:
             "grids": budget.grids,
             "data": budget.fingerprint,
             "grids_seen": budget.seen,
+            "autoencoder_steps": budget.autoencoder,
             "training": budget.training.model_dump(mode="json"),
         },
         "rows": [_row(row, ablation.blocks) for row in ablation.rows],

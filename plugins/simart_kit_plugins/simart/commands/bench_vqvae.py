@@ -34,6 +34,15 @@ Config = Annotated[
 Steps = Annotated[
     int | None, typer.Option(metavar="N", help="Steps of each row; default: those of the preset.")
 ]
+Autoencoder = Annotated[
+    int,
+    typer.Option(
+        min=0,
+        metavar="N",
+        help="First train encoder and decoder without a codebook for N steps; all rows start from these, "
+        "as the paper's do from TRELLIS.",
+    ),
+]
 Procedural = Annotated[int, typer.Option(min=1, metavar="N", help="Generated objects to train on.")]
 HeldOut = Annotated[int, typer.Option(min=0, metavar="N", help="Generated objects to judge on.")]
 Data = Annotated[
@@ -55,6 +64,7 @@ def bench_vqvae(
     run: Run,
     config: Config = "micro",
     steps: Steps = None,
+    autoencoder: Autoencoder = 0,
     procedural: Procedural = 200,
     held_out: HeldOut = 64,
     data: Data = None,
@@ -86,7 +96,7 @@ def bench_vqvae(
         from .training_display import Display
 
         display = Display(quiet)
-        plan = _plan(config, steps, changes, rows)
+        plan = _plan(config, steps, autoencoder, changes, rows)
         _check(plan, run, resume)
         _use(threads)
         try:
@@ -107,6 +117,7 @@ class _Plan:
 
     config: VoxelConfig
     training: TrainingConfig
+    autoencoder: int
     variants: tuple[Variant, ...]
 
 
@@ -120,14 +131,16 @@ class _Objects:
     plugins: Plugins
 
 
-def _plan(config: str, steps: int | None, changes: Mapping[str, object], rows: str | None) -> _Plan:
+def _plan(
+    config: str, steps: int | None, autoencoder: int, changes: Mapping[str, object], rows: str | None
+) -> _Plan:
     from ..ablation.budget import shrunk
     from ..ablation.variants import chosen_variants
     from ..training.presets import read_preset, with_changes
 
     preset = read_preset(config)
     training = with_changes(shrunk(preset.training, steps), changes)
-    return _Plan(preset.config, training, chosen_variants(rows))
+    return _Plan(preset.config, training, autoencoder, chosen_variants(rows))
 
 
 def _check(plan: _Plan, run: Path, resume: bool) -> None:
@@ -149,6 +162,7 @@ def _use(threads: int | None) -> None:
 
 
 def _performed(plan: _Plan, objects: _Objects, run: Path, display: Display, quiet: bool) -> Ablation:
+    from ..ablation.autoencoder import autoencoder
     from ..ablation.budget import Budget
     from ..ablation.experiment import perform
     from .training_data import training_grids
@@ -157,14 +171,26 @@ def _performed(plan: _Plan, objects: _Objects, run: Path, display: Display, quie
     edge, training = plan.config.resolution, plan.training
     grids = training_grids((), objects.procedural, training.seed, edge, objects.plugins, display.progress)
     blocks = _blocks(objects, edge, display)
-    budget = Budget(training, len(grids), grids.fingerprint)
+    budget = Budget(training, len(grids), grids.fingerprint, plan.autoencoder)
+    start = (
+        autoencoder(
+            plan.config,
+            training,
+            plan.autoencoder,
+            grids,
+            run / "autoencoder",
+            lambda done, of: display.progress("steps of the autoencoder", done, of),
+        )
+        if plan.autoencoder
+        else None
+    )
 
     def watch(variant: Variant, config: VoxelConfig) -> Callable[[LogRow], None]:
         display.say(f"row {variant.key}: {training.steps} steps on {len(grids)} grids, {training.device}")
         lines, codes = Display(quiet), config.codebook_size - config.first_code
         return lambda row: lines.row(row, training, codes)
 
-    return perform(plan.config, budget, plan.variants, grids, blocks, run, watch)
+    return perform(plan.config, budget, plan.variants, grids, blocks, run, watch, start)
 
 
 def _blocks(objects: _Objects, edge: int, display: Display) -> list[Block]:

@@ -72,7 +72,7 @@ class SparseVQVAE(nn.Module):
         """
         features, occupied = self.features(occupancy)
         quantised = self.quantiser(features, occupied)
-        logits = self._decode(quantised.vectors)
+        logits = self.decode_features(quantised.vectors)
         terms = losses(logits, occupancy, quantised.codebook_loss, quantised.commitment_loss, self.config)
         return Output(logits, quantised.codes, occupied, features.detach(), terms)
 
@@ -99,7 +99,7 @@ class SparseVQVAE(nn.Module):
             BadInputError: the codes are of another shape, or a code is not in the codebook.
         """
         require_cells("codes", codes, self.config)
-        logits = self._decode(self.quantiser.lookup(codes))
+        logits = self.decode_features(self.quantiser.lookup(codes))
         if occupied is None:
             return logits
         require_cells("occupied cells", occupied, self.config)
@@ -120,7 +120,8 @@ class SparseVQVAE(nn.Module):
         """What stage 1 trains: what TRELLIS' weights lack, that is the codebook, and what meets it first."""
         return [*self.quantiser.parameters(), *self.decoder.input_layer.parameters()]
 
-    def _decode(self, vectors: Tensor) -> Tensor:
+    def decode_features(self, vectors: Tensor) -> Tensor:
+        """Logits (B, 1, R, R, R) of (B, X, Y, Z, D) vectors, quantised or not."""
         latent = depth_to_space(vectors, self.config.latent_edge, self.config.layout)
         logits: Tensor = self.decoder(latent)
         return logits
