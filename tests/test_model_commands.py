@@ -4,6 +4,7 @@ import json
 
 import pytest
 import torch
+from safetensors.torch import load_file, save_file
 from simart_kit_plugins.simart.models import build_model
 from simart_kit_plugins.simart.training.scores import score
 from simart_kit_plugins.simart.vqnano.config import VqNanoConfig
@@ -64,15 +65,29 @@ def test_a_folder_without_a_model_is_refused(tmp_path, capfd):
     assert "config.json" in capfd.readouterr().err
 
 
-def test_a_shrunk_model_is_half_as_large_and_still_the_same_model(model, tmp_path, capfd):
+def test_a_shrunk_model_is_less_than_half_as_large_and_still_the_same_model(model, tmp_path, capfd):
     assert run(["model", "shrink", str(model), str(tmp_path / "small")]) == 0
     assert "MB" in capfd.readouterr().out
     sizes = [(folder / "model.safetensors").stat().st_size for folder in (model, tmp_path / "small")]
-    assert 0.5 < sizes[1] / sizes[0] < 0.6  # counts of steps, names and shapes stay
-    large, small = load_checkpoint(model), load_checkpoint(tmp_path / "small")
-    for name, tensor in large.state_dict().items():
-        expected = tensor.half().float() if tensor.is_floating_point() else tensor
-        assert torch.equal(small.state_dict()[name], expected)
+    assert sizes[1] / sizes[0] < 0.5
+    large, small = (load_checkpoint(folder).state_dict() for folder in (model, tmp_path / "small"))
+    assert large.keys() == small.keys()
+    for name, tensor in large.items():
+        if not name.startswith("quantiser."):
+            assert torch.equal(small[name], tensor.half().float())
+    entries, kept = large["quantiser.entries"], small["quantiser.entries"]
+    # Half a step of 127 to the largest value of the channel.
+    assert ((kept - entries).abs() <= entries.abs().amax(0) / 127 * 0.501).all()
+    assert not small["quantiser.idle_steps"].any()
+
+
+def test_a_shrunk_model_with_entries_of_another_type_is_refused(model, tmp_path, capfd):
+    assert run(["model", "shrink", str(model), str(tmp_path / "small")]) == 0
+    path = tmp_path / "small" / "model.safetensors"
+    tensors = load_file(path)
+    save_file({**tensors, "quantiser.entries": tensors["quantiser.entries"].float()}, path)
+    assert run(["model", "evaluate", str(tmp_path / "small")]) == 2
+    assert "quantiser.entries is of type F32, not I8" in capfd.readouterr().err
 
 
 def test_nothing_of_somebody_elses_is_overwritten(model, tmp_path, capfd):

@@ -32,6 +32,7 @@ def nano(seed=0, **changes):
         "neighbour_channels": 3,
         "hidden_channels": 8,
         "revive_after": 2,
+        "candidates": 1,
     }
     return VqNano(VqNanoConfig(**(base | changes)), seed)
 

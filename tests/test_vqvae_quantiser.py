@@ -186,11 +186,11 @@ def test_kmeans_initialisation_reduces_the_quantisation_error_and_repeats_with_i
         return (cloud - made.entries[nearest(cloud, made.entries)]).square().mean().item()
 
     before = error()
-    made.initialise(cloud, generator(7))
+    made.initialise(cloud, torch.zeros(len(cloud), dtype=torch.int64), generator(7))
     first = made.entries.clone()
     assert error() < before / 20
     assert torch.equal(made.ema_sum, first)
-    made.initialise(cloud, generator(7))
+    made.initialise(cloud, torch.zeros(len(cloud), dtype=torch.int64), generator(7))
     assert torch.equal(made.entries, first)
 
 

@@ -30,13 +30,13 @@ def check_folder(out: Path) -> None:
         read_config(out / CONFIG_FILE)
 
 
-def put_model(model: VoxelModel, out: Path, half: bool = False) -> None:
+def put_model(model: VoxelModel, out: Path, compact: bool = False) -> None:
     """Write a model beside its place and move it in, so that nothing half-written is ever there.
 
     Args:
         model: to write.
         out: its folder.
-        half: store weights in half precision.
+        compact: store the compact form.
 
     Raises:
         OutputError: the folder cannot be written.
@@ -50,7 +50,7 @@ def put_model(model: VoxelModel, out: Path, half: bool = False) -> None:
     except OSError as error:
         raise OutputError(f"cannot write the model to {out}: {error.strerror}") from error
     try:
-        _swap(save_checkpoint(model, aside / "new", half), place, aside / "old")
+        _swap(save_checkpoint(model, aside / "new", compact), place, aside / "old")
     except OSError as error:
         raise OutputError(f"cannot write the model to {out}: {error.strerror}") from error
     finally:

@@ -19,15 +19,15 @@ Out = Annotated[
 
 
 def shrink_model(model: Model, out: Out, json: Json = False, verbose: Verbose = False) -> None:
-    """Write a model in half precision, for shipping.
+    """Write a model in a small form, for shipping.
 
-    The file is half as large; it is read as float32 again.
+    Weights are in half precision, codebooks in 8 bits; training state is left out. It is read as any model.
     """
     with stdout_kept(json):
         check_folder(out)
         from ..vqvae.checkpoint import WEIGHTS_FILE, load_checkpoint
 
-        put_model(load_checkpoint(model), out, half=True)
+        put_model(load_checkpoint(model), out, compact=True)
         size = (out / WEIGHTS_FILE).stat().st_size
     if json:
         print_json({"ok": True, "model": str(out), "bytes": size})

@@ -106,7 +106,7 @@ def _begin(model: VoxelModel, sampler: Sampler) -> Position:
     config = sampler.config
     if config.start_codebook:
         once = range(math.ceil(len(sampler.grids) / config.batch_size))
-        most = _VECTORS_PER_CODE * model.config.codebook_size
+        most = _VECTORS_PER_CODE * model.config.codebook_size * model.config.codebooks
         if isinstance(model, VqNano):
             fit_components(model, map(sampler.batch, once))
         initialise_codebook(model, map(sampler.batch, once), torch_generator(config.seed, -1), most)

@@ -46,3 +46,9 @@ def neighbour_rows(picked: Tensor) -> Tensor:
         for i, j, k in NEIGHBOURS
     ]
     return torch.stack(shifted, dim=1)
+
+
+def places(picked: Tensor) -> Tensor:
+    """(K, 3) int64 numbers of the marked cells of (B, X, Y, Z): x, then X + y, then X + Y + z."""
+    x, y, _ = picked.shape[1:]
+    return torch.nonzero(picked)[:, 1:] + torch.tensor([0, x, x + y], device=picked.device)

@@ -22,7 +22,12 @@ class VqNanoConfig(CodebookConfig):
     codebook_update: Literal["loss", "ema"] = Field(
         default="ema", description="Entries follow a gradient, or the running mean of what they stand for."
     )
-    ema_decay: float = Field(default=0.99, gt=0, lt=1, description="Share of the running mean kept a step.")
+    contexts: Literal[1, 8] = Field(
+        default=8, description="Codebooks: one, or one for each way that the cells beside a cell may be."
+    )
+    candidates: int = Field(
+        default=8, ge=1, description="Codes that encoding tries for a cell; 1 is the nearest, untried."
+    )
     beta: float = Field(default=2.5, ge=0, description="Weight of the commitment loss.")
     dice_weight: float = Field(default=0.25, ge=0, description="Weight of the dice loss beside the BCE.")
     token_channels: int = Field(default=64, gt=0, description="Length of a token's vector.")
@@ -48,6 +53,11 @@ class VqNanoConfig(CodebookConfig):
     def vector_length(self) -> int:
         """Length of a token's vector."""
         return self.token_channels
+
+    @property
+    def codebooks(self) -> int:
+        """As many as there are contexts."""
+        return self.contexts
 
     @property
     def block(self) -> Cells:

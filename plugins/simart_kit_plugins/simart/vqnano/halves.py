@@ -18,7 +18,7 @@ class BlockEncoder(nn.Module):
 
     def __init__(self, config: VqNanoConfig) -> None:
         super().__init__()
-        width, places = config.channels, config.cells[0] * config.cells[1] * config.cells[2]
+        width, places = config.channels, sum(config.cells)
         self.components = nn.Linear(config.block_voxels, config.vector_length)
         self.widen = nn.Linear(config.block_voxels, config.hidden_channels)
         self.narrow = nn.Linear(config.hidden_channels, width)
@@ -33,8 +33,8 @@ class BlockEncoder(nn.Module):
         nn.init.zeros_(self.correction.bias)
 
     def forward(self, voxels: Tensor, places: Tensor, rows: Tensor) -> Tensor:
-        """(K, n) 0 or 1, (K,) cells in C order and (K, 27) `neighbour_rows`."""
-        hidden = self.narrow(gelu(self.widen(voxels - _SHARE_ON))) + self.place[places]
+        """(K, n) 0 or 1, (K, 3) `places` and (K, 27) `neighbour_rows`."""
+        hidden = self.narrow(gelu(self.widen(voxels - _SHARE_ON))) + self.place[places].sum(1)
         for layer in self.layers:
             hidden = layer(hidden, rows, self.empty)
         features: Tensor = self.components(voxels) + self.correction(self.norm(hidden))
@@ -46,7 +46,7 @@ class BlockDecoder(nn.Module):
 
     def __init__(self, config: VqNanoConfig) -> None:
         super().__init__()
-        width, places = config.channels, config.cells[0] * config.cells[1] * config.cells[2]
+        width, places = config.channels, sum(config.cells)
         self.components = nn.Linear(config.vector_length, config.block_voxels)
         self.input_layer = nn.Linear(config.vector_length, width)
         self.place = nn.Parameter(0.02 * torch.randn(places, width))
@@ -60,11 +60,11 @@ class BlockDecoder(nn.Module):
         nn.init.zeros_(self.correction.bias)
 
     def forward(self, vectors: Tensor, places: Tensor, rows: Tensor, empty: Tensor | None) -> Tensor:
-        """(K, D) vectors, (K,) cells in C order, (K, 27) `neighbour_rows`, and the (D,) vector of emptiness.
+        """(K, D) vectors, (K, 3) `places`, (K, 27) `neighbour_rows`, and the (D,) vector of emptiness.
 
         Without one, cells without a token are zeros to their neighbours.
         """
-        hidden = self.input_layer(vectors) + self.place[places]
+        hidden = self.input_layer(vectors) + self.place[places].sum(1)
         nothing = hidden.new_zeros(1, hidden.shape[1]) if empty is None else self.input_layer(empty[None])
         for layer in self.layers:
             hidden = layer(hidden, rows, nothing)

@@ -12,9 +12,10 @@ from ..vqvae.cells import require_cells, require_grid
 from ..vqvae.losses import Losses, weighted
 from ..vqvae.model import Encoded
 from ..vqvae.quantiser import Quantiser
-from .blocks import block_view, grid_of_blocks, neighbour_rows
+from .blocks import block_view, grid_of_blocks, neighbour_rows, places
 from .config import VqNanoConfig
 from .halves import BlockDecoder, BlockEncoder
+from .search import best_codes
 
 # Logit of voxels in cells without a token.
 _OFF = -30.0
@@ -67,8 +68,8 @@ class VqNano(nn.Module):
         """Encode, quantise and decode (B, 1, R, R, R) voxels (0 or 1, any type), with the losses."""
         blocks, occupied, picked = self._blocks(occupancy)
         truth = blocks[picked].float()
-        features = self.encoder(truth, _places(picked), neighbour_rows(picked))
-        quantised = self.quantiser.quantise(features)
+        features = self.encoder(truth, places(picked), neighbour_rows(picked))
+        quantised = self.quantiser.quantise(features, picked)
         logits = self._decode(quantised.vectors, picked)
         reconstruction = binary_cross_entropy_with_logits(logits, truth)
         dice = _dice(logits.sigmoid(), truth, torch.nonzero(picked)[:, 0], len(picked))
@@ -86,8 +87,9 @@ class VqNano(nn.Module):
             BadInputError: the grid is of another shape.
         """
         blocks, occupied, picked = self._blocks(occupancy)
-        features = self.encoder(blocks[picked].float(), _places(picked), neighbour_rows(picked))
-        codes = self.quantiser.quantise(features).codes
+        truth = blocks[picked]
+        features = self.encoder(truth.float(), places(picked), neighbour_rows(picked))
+        codes = best_codes(self, truth, features, picked)
         return Encoded(self.quantiser.on_grid(codes, picked), occupied)
 
     @torch.no_grad()
@@ -118,7 +120,7 @@ class VqNano(nn.Module):
             BadInputError: the grid is of another shape.
         """
         blocks, occupied, picked = self._blocks(occupancy)
-        vectors = self.encoder(blocks[picked].float(), _places(picked), neighbour_rows(picked))
+        vectors = self.encoder(blocks[picked].float(), places(picked), neighbour_rows(picked))
         features = vectors.new_zeros(*picked.shape, self.config.vector_length)
         return features.index_put((picked,), vectors), occupied
 
@@ -136,13 +138,8 @@ class VqNano(nn.Module):
     def _decode(self, vectors: Tensor, picked: Tensor) -> Tensor:
         """(K, n) logits of the K cells that (B, X, Y, Z) marks, from their (K, D) vectors."""
         empty = self.quantiser.zero_token
-        logits: Tensor = self.decoder(vectors, _places(picked), neighbour_rows(picked), empty)
+        logits: Tensor = self.decoder(vectors, places(picked), neighbour_rows(picked), empty)
         return logits
-
-
-def _places(picked: Tensor) -> Tensor:
-    """(K,) numbers of the marked cells in C order."""
-    return torch.nonzero(picked.flatten(1))[:, 1]
 
 
 def _dice(chance: Tensor, truth: Tensor, grid: Tensor, count: int) -> Tensor:

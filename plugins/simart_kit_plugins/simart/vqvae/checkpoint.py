@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from torch import Tensor
-
 from simart_kit.errors import OutputError
 
 from ..models import VoxelModel, build_model
+from .compact import STEP, compacted, expanded
 from .config_file import read_config, write_config
-from .weights import read_tensors
+from .weights import names, read_tensors
 
 CONFIG_FILE = "config.json"
 WEIGHTS_FILE = "model.safetensors"
 
 
-def save_checkpoint(model: VoxelModel, folder: Path, half: bool = False) -> Path:
+def save_checkpoint(model: VoxelModel, folder: Path, compact: bool = False) -> Path:
     """Write the folder (the same weights give the same bytes) and return it.
 
     The weights are put in place in one move: a save that is interrupted leaves the earlier file whole.
@@ -24,7 +23,7 @@ def save_checkpoint(model: VoxelModel, folder: Path, half: bool = False) -> Path
     Args:
         model: on any device.
         folder: made where it is missing.
-        half: store numbers in half precision; `load_checkpoint` makes them float32 again.
+        compact: store the compact form, see `compacted`; `load_checkpoint` makes all float32 again.
 
     Raises:
         OutputError: the folder cannot be written.
@@ -32,7 +31,8 @@ def save_checkpoint(model: VoxelModel, folder: Path, half: bool = False) -> Path
     from safetensors import SafetensorError
     from safetensors.torch import save_file
 
-    tensors = {name: _stored(tensor, half) for name, tensor in model.state_dict().items()}
+    tensors = {name: tensor.detach().cpu().contiguous() for name, tensor in model.state_dict().items()}
+    tensors = compacted(tensors) if compact else tensors
     partial = folder / f"{WEIGHTS_FILE}.partial"
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -53,10 +53,9 @@ def load_checkpoint(folder: str | Path) -> VoxelModel:
     folder = Path(folder)
     model = build_model(read_config(folder / CONFIG_FILE))
     advice = f"give the {WEIGHTS_FILE} that was saved with this {CONFIG_FILE}"
-    model.load_state_dict(read_tensors(folder / WEIGHTS_FILE, model.state_dict(), advice))
+    expected, path = model.state_dict(), folder / WEIGHTS_FILE
+    if STEP in names(path, advice):
+        model.load_state_dict(expanded(read_tensors(path, compacted(expected), advice), expected))
+    else:
+        model.load_state_dict(read_tensors(path, expected, advice))
     return model
-
-
-def _stored(tensor: Tensor, half: bool) -> Tensor:
-    tensor = tensor.detach().cpu().contiguous()
-    return tensor.half() if half and tensor.is_floating_point() else tensor

@@ -53,6 +53,11 @@ class CodebookConfig(Table):
         """Length D of a token's vector."""
 
     @property
+    def codebooks(self) -> int:
+        """Number of codebooks; a cell's surroundings say which is its own."""
+        return 1
+
+    @property
     def first_code(self) -> int:
         """The lowest code that stands for geometry: 1 where code 0 is reserved for emptiness."""
         return 1 if self.mode == "zero" else 0

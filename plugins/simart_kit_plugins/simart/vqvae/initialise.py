@@ -10,6 +10,7 @@ from torch import Tensor
 from simart_kit.errors import BadInputError
 
 from ..models import VoxelModel
+from .contexts import contexts
 
 # Vectors given to k-means; 64 an entry of the full codebook.
 MOST_VECTORS = 1 << 18
@@ -34,17 +35,20 @@ def initialise_codebook(
         BadInputError: no voxel of any batch is on.
     """
     gathered: list[Tensor] = []
+    books: list[Tensor] = []
     empty = _EmptyMean(model)
     for batch in batches:
         features, occupied = model.features(batch)
-        gathered.append(features[torch.ones_like(occupied) if model.config.mode == "dense" else occupied])
+        picked = torch.ones_like(occupied) if model.config.mode == "dense" else occupied
+        gathered.append(features[picked])
+        books.append(contexts(picked, model.config.codebooks))
         empty.add(features, occupied)
         if sum(map(len, gathered)) >= most:
             break
     vectors = torch.cat(gathered)[:most] if gathered else torch.zeros(0)
     if not len(vectors):
         raise BadInputError("the codebook cannot be started: no voxel of the given shapes is on")
-    model.quantiser.initialise(vectors, generator)
+    model.quantiser.initialise(vectors, torch.cat(books)[:most], generator)
     empty.store()
     return len(vectors)
 

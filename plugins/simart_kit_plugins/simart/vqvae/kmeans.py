@@ -16,7 +16,13 @@ def nearest(vectors: Tensor, entries: Tensor) -> Tensor:
     return _nearest(vectors, entries)[0]
 
 
-def kmeans(vectors: Tensor, clusters: int, generator: torch.Generator, iterations: int = 10) -> Tensor:
+def kmeans(
+    vectors: Tensor,
+    clusters: int,
+    generator: torch.Generator,
+    iterations: int = 10,
+    start: Tensor | None = None,
+) -> Tensor:
     """(N, D) float32 vectors to (clusters, D) centres by Lloyd's algorithm from random vectors.
 
     A cluster that loses all its vectors moves to one of the vectors farthest from their centres. With fewer
@@ -27,8 +33,9 @@ def kmeans(vectors: Tensor, clusters: int, generator: torch.Generator, iteration
         clusters: number of centres.
         generator: on the CPU, so that all devices draw alike.
         iterations: passes over the vectors.
+        start: (clusters, D) centres to begin with, instead of random vectors.
     """
-    centres = _starts(vectors, clusters, generator)
+    centres = _starts(vectors, clusters, generator) if start is None else start
     for _ in range(iterations):
         rows, distances = _nearest(vectors, centres)
         counts, sums = tally(vectors, rows, clusters)

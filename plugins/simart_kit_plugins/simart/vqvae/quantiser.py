@@ -1,4 +1,4 @@
-"""The codebook: nearest entries for cells with geometry, one reserved vector for all others."""
+"""The codebooks: nearest entries for cells with geometry, one reserved vector for all others."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from torch import Tensor, nn
 from simart_kit.errors import BadInputError
 
 from .config import CodebookConfig
+from .contexts import contexts
 from .kmeans import kmeans, nearest, tally
 from .losses import mean_squared
 
@@ -39,6 +40,9 @@ class Quantised:
 class Quantiser(nn.Module):
     """Codebook of `codebook_size` vectors: `zero_token` (mode zero only), then `entries`.
 
+    Where the config has several codebooks, `entries` has one after the other, and `contexts` tells which one
+    a cell's code is from.
+
     `entries` is a parameter, or with codebook_update "ema" a buffer that `update` moves. `zero_token` always
     is a parameter; only the decoder gives it a gradient.
     """
@@ -53,8 +57,9 @@ class Quantiser(nn.Module):
         super().__init__()
         self.config = config
         self.first_code = config.first_code
-        spread = 1 / config.codebook_size
-        codebook = torch.empty(config.codebook_size, config.vector_length).uniform_(-spread, spread)
+        self.size = config.codebook_size - self.first_code
+        spread, rows = 1 / config.codebook_size, self.first_code + config.codebooks * self.size
+        codebook = torch.empty(rows, config.vector_length).uniform_(-spread, spread)
         zero_token, entries = codebook[: self.first_code], codebook[self.first_code :]
         reserved = nn.Parameter(zero_token[0].clone()) if self.first_code else None
         self.register_parameter("zero_token", reserved)
@@ -72,16 +77,18 @@ class Quantiser(nn.Module):
         Losses are means over the quantised cells, and 0 where there are none.
         """
         picked = torch.ones_like(occupied) if self.config.mode == "dense" else occupied
-        found = self.quantise(features[picked])
+        found = self.quantise(features[picked], picked)
         vectors = self._empty(picked).index_put((picked,), found.vectors)
         return replace(found, vectors=vectors, codes=self.on_grid(found.codes, picked))
 
-    def quantise(self, found: Tensor) -> Quantised:
-        """As `forward`, of (K, D) features alone: (K, D) vectors and (K,) codes."""
-        found = found.float()
+    def quantise(self, found: Tensor, picked: Tensor) -> Quantised:
+        """As `forward`, of the (K, D) features of the cells that (B, X, Y, Z) marks: K vectors, K codes."""
+        found, books = found.float(), contexts(picked, self.config.codebooks)
+        rows = torch.zeros(len(found), dtype=torch.int64, device=found.device)
         with torch.autocast(found.device.type, enabled=False):  # distances need float32
-            rows = nearest(found.detach(), self.entries.detach())
-        chosen = self.entries[rows]
+            for book, own in _by_book(books):
+                rows[own] = nearest(found[own].detach(), self._book(self.entries.detach(), book))
+        chosen = self.entries[rows + books * self.size]
         codebook_loss = mean_squared(chosen, found.detach())
         if self.config.codebook_update == "ema":
             codebook_loss = torch.zeros_like(codebook_loss)
@@ -114,12 +121,20 @@ class Quantiser(nn.Module):
                 f"code {wrong[0].item()} is not in the codebook: "
                 f"this model's codes are {lowest}..{self.config.codebook_size - 1}"
             )
-        return self.entries[codes[picked] - self.first_code]
+        return self.entries[self._rows(codes, picked)]
 
     @torch.no_grad()
-    def initialise(self, vectors: Tensor, generator: torch.Generator) -> None:
-        """Set the entries to k-means centres of (N, D) encoder features, N > 0."""
-        self.entries.copy_(kmeans(vectors.float(), len(self.entries), generator))
+    def initialise(self, vectors: Tensor, books: Tensor, generator: torch.Generator) -> None:
+        """Set the entries to k-means centres of (N, D) encoder features of (N,) codebooks, N > 0.
+
+        Each codebook starts from the centres of all features together: so a code tends to mean something
+        alike in all of them.
+        """
+        shared = kmeans(vectors.float(), self.size, generator)
+        self.entries.copy_(shared.repeat(self.config.codebooks, 1))
+        for book, own in _by_book(books) if self.config.codebooks > 1 else ():
+            centres = kmeans(vectors[own].float(), self.size, generator, start=shared)
+            self._book(self.entries, book).copy_(centres)
         self.idle_steps.zero_()
         if self.config.codebook_update == "ema":
             self.ema_count.fill_(1)
@@ -142,11 +157,27 @@ class Quantiser(nn.Module):
         """
         picked = codes >= self.first_code
         found = (features if features.ndim == 2 else features[picked]).float()
-        counts, sums = tally(found, codes[picked] - self.first_code, len(self.entries))
+        counts, sums = tally(found, self._rows(codes, picked), len(self.entries))
         if self.config.codebook_update == "ema":
             self._move_entries(counts, sums)
         self.idle_steps.add_(1).masked_fill_(counts > 0, 0)
-        return self._revive(found, generator) if self.config.revive_after else 0
+        return self._revive(found, picked, generator) if self.config.revive_after else 0
+
+    def candidates(self, found: Tensor, picked: Tensor, count: int) -> Tensor:
+        """(K, count) codes of the entries nearest to (K, D) features, the nearest first; or all, if fewer."""
+        rows = torch.zeros(len(found), min(count, self.size), dtype=torch.int64, device=found.device)
+        for book, own in _by_book(contexts(picked, self.config.codebooks)):
+            distances = torch.cdist(found[own].float(), self._book(self.entries, book))
+            rows[own] = distances.topk(rows.shape[1], largest=False).indices
+        return rows + self.first_code
+
+    def _rows(self, codes: Tensor, picked: Tensor) -> Tensor:
+        """(K,) rows of `entries` for (B, X, Y, Z) codes, at the K cells that (B, X, Y, Z) marks."""
+        return codes[picked] - self.first_code + self.size * contexts(picked, self.config.codebooks)
+
+    def _book(self, values: Tensor, book: int) -> Tensor:
+        """The part of a tensor by entry that belongs to one codebook."""
+        return values[book * self.size : (book + 1) * self.size]
 
     def _empty(self, picked: Tensor) -> Tensor:
         """(B, X, Y, Z, D) vectors as if no cell had geometry."""
@@ -162,12 +193,21 @@ class Quantiser(nn.Module):
         means = self.ema_sum / self.ema_count.clamp(min=_LEAST_COUNT)[:, None]
         self.entries.copy_(torch.where(known, means, self.entries))
 
-    def _revive(self, found: Tensor, generator: torch.Generator) -> int:
-        dead = torch.nonzero(self.idle_steps >= self.config.revive_after)[:, 0][: len(found)]
-        drawn = torch.randperm(len(found), generator=generator)[: len(dead)].to(found.device)
-        self.entries[dead] = found[drawn]
-        self.idle_steps[dead] = 0
-        if self.config.codebook_update == "ema":
-            self.ema_count[dead] = 1
-            self.ema_sum[dead] = found[drawn]
-        return len(dead)
+    def _revive(self, found: Tensor, picked: Tensor, generator: torch.Generator) -> int:
+        idle = self.idle_steps >= self.config.revive_after
+        revived = 0
+        for book, own in _by_book(contexts(picked, self.config.codebooks)):
+            dead = torch.nonzero(self._book(idle, book))[:, 0][: len(own)] + book * self.size
+            drawn = own[torch.randperm(len(own), generator=generator)[: len(dead)].to(found.device)]
+            self.entries[dead] = found[drawn]
+            self.idle_steps[dead] = 0
+            if self.config.codebook_update == "ema":
+                self.ema_count[dead] = 1
+                self.ema_sum[dead] = found[drawn]
+            revived += len(dead)
+        return revived
+
+
+def _by_book(books: Tensor) -> list[tuple[int, Tensor]]:
+    """Each codebook of (K,) with the rows that are its own, those without any left out."""
+    return [(book, torch.nonzero(books == book)[:, 0]) for book in torch.unique(books).tolist()]

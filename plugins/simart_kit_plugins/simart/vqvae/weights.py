@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from torch import Tensor
 from simart_kit.errors import BadInputError
 
 _FLOATS = ("F64", "F32", "F16", "BF16")
-_INTEGERS = ("I64",)
+_INTEGERS = {torch.int64: ("I64",), torch.int8: ("I8",)}
 # Names told of each kind of mistake; a file of another model has hundreds.
 _TOLD = 4
 
@@ -29,22 +30,34 @@ def read_tensors(path: Path, expected: Mapping[str, Tensor], advice: str) -> dic
         BadInputError: the file cannot be read or is damaged, or a tensor is missing, unexpected, of another
             shape or type, or not finite. All names and shapes that are wrong are in the one message.
     """
+    with _opened(path, advice) as file:
+        _check(path, file, expected, advice)
+        tensors = {name: file.get_tensor(name).to(like.dtype) for name, like in expected.items()}
+    wrong = [name for name, tensor in tensors.items() if not torch.isfinite(tensor).all()]
+    if wrong:
+        raise BadInputError(f"{path}: {_some(wrong)} not finite: {advice}")
+    return tensors
+
+
+def names(path: Path, advice: str) -> set[str]:
+    """The names of the tensors of a safetensors file; errors as of `read_tensors`."""
+    with _opened(path, advice) as file:
+        return set(file.keys())
+
+
+@contextmanager
+def _opened(path: Path, advice: str) -> Iterator[Any]:
     from safetensors import SafetensorError, safe_open
 
     try:
         with safe_open(path, framework="pt") as file:
-            _check(path, file, expected, advice)
-            tensors = {name: file.get_tensor(name).to(like.dtype) for name, like in expected.items()}
+            yield file
     except FileNotFoundError as error:
         raise BadInputError(f"cannot read {path}: no such file: {advice}") from error
     except (OSError, SafetensorError) as error:
         raise BadInputError(
             f"cannot read {path}: damaged or no safetensors file ({error}): {advice}"
         ) from error
-    wrong = [name for name, tensor in tensors.items() if not torch.isfinite(tensor).all()]
-    if wrong:
-        raise BadInputError(f"{path}: {_some(wrong)} not finite: {advice}")
-    return tensors
 
 
 def _check(path: Path, file: Any, expected: Mapping[str, Tensor], advice: str) -> None:
@@ -64,7 +77,7 @@ def _misfit(name: str, found: Any, like: Tensor) -> str:
     shape, kind = tuple(found.get_shape()), found.get_dtype()
     if shape != tuple(like.shape):
         return f"{name} is {shape}, not {tuple(like.shape)}"
-    kinds = _FLOATS if like.is_floating_point() else _INTEGERS
+    kinds = _FLOATS if like.is_floating_point() else _INTEGERS[like.dtype]
     return "" if kind in kinds else f"{name} is of type {kind}, not {' or '.join(kinds)}"
 
 
