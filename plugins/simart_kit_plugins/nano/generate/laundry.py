@@ -12,25 +12,13 @@ from ...shapes.legs import feet
 from ...shapes.outlines import SQUARE, ngon, rounded
 from ...shapes.placing import Y, around, moved, pointed, rotation, turned
 from ...shapes.primitives import Pieces, between, box, boxes, loft, open_box, revolve, vessel
+from ...shapes.walls import pierced
 from . import looks
 from .assembling import Assembly, dial, fall, holder, lift, press, pull, shell, swing, turning
 from .category import Category
 from .objects import Body, Look, spin
 
 _Size = tuple[float, float, float]
-
-
-def pierced(width: float, height: float, radius: float, level: float) -> FloatArray:
-    """A sheet at y = 0 from z = 0 up, with a round hole at a level."""
-    angle = np.linspace(0, 2 * np.pi, 25)
-    x, z = np.cos(angle), np.sin(angle)
-    reach = 1 / np.maximum(np.abs(x), np.abs(z))
-    edge_z = np.where(z > 0, height - level, level)
-    zero = np.zeros_like(x)
-    outer = np.column_stack([x * reach * width / 2, zero, z * reach * edge_z + level])
-    inner = np.column_stack([x * radius, zero, z * radius + level])
-    a, b, c, d = outer[:-1], outer[1:], inner[1:], inner[:-1]
-    return np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3, 3)
 
 
 def _washer(dice: Dice) -> list[Body]:

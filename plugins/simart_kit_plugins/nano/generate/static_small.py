@@ -25,27 +25,11 @@ from ...shapes.primitives import (
     tube,
     vessel,
 )
+from ...shapes.walls import hollow, smooth_wall
 from . import looks
 from .category import Category
 from .objects import Body, Look, surface
 from .rigging import UP, Rig, lying
-
-
-def _wall(dice: Dice, knots: int) -> FloatArray:
-    """(12, 2) radius 0.2..1 and height 0..1 of a smooth wall."""
-    heights = np.linspace(0, 1, 12)
-    radii = np.interp(heights, np.linspace(0, 1, knots), 0.25 + 0.75 * dice.units(knots))
-    soft = np.convolve(np.pad(radii, 1, mode="edge"), [0.25, 0.5, 0.25], mode="valid")
-    return np.column_stack([soft, heights])
-
-
-def _hollow(wall: FloatArray, thick: float) -> FloatArray:
-    """Profile of a vessel: its outer wall upwards, then its inner one down to the axis."""
-    inner = wall[::-1] - [thick, 0]
-    inner[-1, 1] += thick
-    line: FloatArray = np.concatenate([[[0.0, wall[0, 1]]], wall, inner, [[0.0, inner[-1, 1]]]])
-    line[:, 0] = np.maximum(line[:, 0], 0.0)
-    return line
 
 
 def stuff(dice: Dice) -> Look:
@@ -55,10 +39,10 @@ def stuff(dice: Dice) -> Look:
 
 def _vase(dice: Dice) -> list[Body]:
     size = [dice.between(0.05, 0.25), dice.between(0.12, 0.7)]
-    wall = _wall(dice, dice.whole(3, 6)) * size
+    wall = smooth_wall(dice, dice.whole(3, 6), 0.25) * size
     whole = Rig(
         surface(
-            [revolve(_hollow(wall, size[0] * dice.between(0.03, 0.1)), dice.pick((6, 8, 20)))], stuff(dice)
+            [revolve(hollow(wall, size[0] * dice.between(0.03, 0.1)), dice.pick((6, 8, 20)))], stuff(dice)
         )
     )
     if dice.chance(0.35):
@@ -258,7 +242,7 @@ def _trophy(dice: Dice) -> list[Body]:
     if dice.chance(0.5):
         foot = [revolve(np.array([[0, 0], [1.1, 0], [1, 0.1], [0.8, 0.3], [0, 0.3]]) * [radius, tall], 16)]
     cup = np.array([[0.3, 0.3], [0.15, 0.42], [0.2, 0.5], [0.8, 0.65], [1.0, 1.0]]) * [radius, tall]
-    pieces = [revolve(_hollow(cup, 0.08 * radius), 18)]
+    pieces = [revolve(hollow(cup, 0.08 * radius), 18)]
     angle = np.linspace(-1.5, 1.5, 9)
     ear = np.column_stack(
         [radius * (0.85 + 0.5 * np.cos(angle)), 0 * angle, tall * (0.8 + 0.13 * np.sin(angle))]

@@ -65,36 +65,8 @@ def _shopping_trolley(dice: Dice) -> list[Body]:
     for s in (-1, 1):
         pieces += _mesh(edge(low, (s, -1), (s, 1)), edge(top, (s, -1), (s, 1)), count + 3, thin)
     pieces += _mesh(edge(low, (-1, -1), (1, -1)), edge(low, (-1, 1), (1, 1)), count, thin)
-    frame = [
-        tube(
-            np.array(
-                [
-                    (s * x * 0.9, y, level + high),
-                    (s * x * 0.9, y, level - 0.1),
-                    (s * x * 0.9, y - 0.05, 0.16),
-                    (s * narrow * 0.8, -y, 0.14),
-                ]
-            ),
-            0.011,
-        )
-        for s in (-1, 1)
-    ]
-    frame.append(rod((-x * 0.9, y - 0.05, 0.16), (x * 0.9, y - 0.05, 0.16), 0.01))
-    whole = Rig(surface(pieces + frame, metal), label="basket")
-    bar = rod((-x, y + 0.06, level + high + 0.08), (x, y + 0.06, level + high + 0.08), 0.016, 8)
-    whole.dress(
-        0,
-        surface(
-            [
-                bar,
-                *[
-                    rod((s * x, y, level + high + 0.04), (s * x, y + 0.06, level + high + 0.08), 0.01)
-                    for s in (-1, 1)
-                ],
-            ],
-            looks.plastic(dice),
-        ),
-    )
+    whole = Rig(surface(pieces + _trolley_frame(x, y, narrow, level, high), metal), label="basket")
+    whole.dress(0, surface(_push_bar(x, y, level + high), looks.plastic(dice)))
     ends = edge(low, (-1, 1), (1, 1)), edge(top, (-1, 1), (1, 1))
     _gate(dice, whole, ends, count, metal)
     spots = np.array(
@@ -102,6 +74,21 @@ def _shopping_trolley(dice: Dice) -> list[Body]:
     )
     casters(dice, whole, spots, 0.055, dice.pick((0, 2)))
     return whole.bodies()
+
+
+def _trolley_frame(x: float, y: float, narrow: float, level: float, high: float) -> Pieces:
+    """Two tubes from the basket's upper end down and forward over the wheels, and a bar between them."""
+    tubes: Pieces = []
+    for s in (-1, 1):
+        upper = [(s * x * 0.9, y, level + high), (s * x * 0.9, y, level - 0.1)]
+        lower = [(s * x * 0.9, y - 0.05, 0.16), (s * narrow * 0.8, -y, 0.14)]
+        tubes.append(tube(np.array(upper + lower), 0.011))
+    return [*tubes, rod((-x * 0.9, y - 0.05, 0.16), (x * 0.9, y - 0.05, 0.16), 0.01)]
+
+
+def _push_bar(x: float, y: float, top: float) -> Pieces:
+    bar = rod((-x, y + 0.06, top + 0.08), (x, y + 0.06, top + 0.08), 0.016, 8)
+    return [bar, *(rod((s * x, y, top + 0.04), (s * x, y + 0.06, top + 0.08), 0.01) for s in (-1, 1))]
 
 
 def _gate(dice: Dice, whole: Rig, ends: tuple[FloatArray, FloatArray], count: int, look: Look) -> None:

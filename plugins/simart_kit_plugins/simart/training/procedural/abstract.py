@@ -10,7 +10,7 @@ from ....shapes.dice import Dice
 from ....shapes.outlines import ngon, rounded
 from ....shapes.placing import mirrored, rotation
 from ....shapes.primitives import Pieces, box, loft, prism, revolve, sheet, superquadric, torus, tube
-from .turned import hollow, smooth_profile
+from ....shapes.walls import hollow, smooth_wall
 
 
 def composition(dice: Dice) -> list[Pieces]:
@@ -57,7 +57,7 @@ def _slab(dice: Dice, size: FloatArray) -> FloatArray:
 
 
 def _turned(dice: Dice, size: FloatArray) -> FloatArray:
-    wall = smooth_profile(dice, dice.whole(3, 8)) * size[[0, 2]]
+    wall = smooth_wall(dice, dice.whole(3, 8), 0.2) * size[[0, 2]]
     return revolve(hollow(wall, 0.1 * size[0]) if dice.chance(0.5) else wall, dice.whole(6, 20))
 
 

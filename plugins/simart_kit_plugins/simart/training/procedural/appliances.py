@@ -24,6 +24,7 @@ from ....shapes.primitives import (
     tube,
     vessel,
 )
+from ....shapes.walls import pierced
 from .leaves import Opening, Style, door, drawer, flap
 
 
@@ -183,7 +184,7 @@ def _washer(dice: Dice) -> list[Pieces]:
     width, depth, height = dice.between(0.5, 0.7), dice.between(0.45, 0.7), dice.between(0.75, 1.0)
     radius, level = dice.between(0.25, 0.36) * width, dice.between(0.42, 0.5) * height
     front = -depth / 2
-    body: Pieces = [_pierced(width, height, radius * 0.85, level) + [0, front, 0]]
+    body: Pieces = [pierced(width, height, radius * 0.85, level) + [0, front, 0]]
     body.append(shell((width, depth, height), dice.between(0.005, 0.02)))
     drum = vessel(ngon(20), (1.7 * radius, 1.7 * radius, depth * 0.8), 0.015)
     drum = turned([drum], rotation((1, 0, 0), np.pi / 2))[0] + [0, front + depth * 0.8, level]
@@ -209,19 +210,6 @@ def _porthole(dice: Dice, radius: float) -> Pieces:
     glass = pointed(loft(ngon(20), profile), Y)
     grip = box((radius * 0.15, radius * 0.15, radius * 0.4), (radius * 0.85, -radius * 0.15, 0))
     return [ring, glass, grip]
-
-
-def _pierced(width: float, height: float, radius: float, level: float) -> FloatArray:
-    """A plane at y = 0 with a round hole."""
-    angle = np.linspace(0, 2 * np.pi, 25)
-    x, z = np.cos(angle), np.sin(angle)
-    reach = 1 / np.maximum(np.abs(x), np.abs(z))
-    edge_z = np.where(z > 0, height - level, level)
-    zero = np.zeros_like(x)
-    outer = np.column_stack([x * reach * width / 2, zero, z * reach * edge_z + level])
-    inner = np.column_stack([x * radius, zero, z * radius + level])
-    a, b, c, d = outer[:-1], outer[1:], inner[1:], inner[:-1]
-    return np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3, 3)
 
 
 def _hood(dice: Dice) -> list[Pieces]:

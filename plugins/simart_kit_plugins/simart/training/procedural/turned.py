@@ -4,34 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray
-
 from ....shapes.dice import Dice
 from ....shapes.handles import handle, knob
 from ....shapes.legs import star_base
 from ....shapes.placing import moved, rotation, turned
 from ....shapes.primitives import Pieces, cylinder, revolve, rod, superquadric, torus, tube
+from ....shapes.walls import hollow, smooth_wall
 
 
 def turned_object(dice: Dice) -> list[Pieces]:
     """A vessel, a pot or a lamp."""
     return dice.weighted([(3, _bottle), (3, _pot), (2, _vase), (3, _lamp)])(dice)
-
-
-def smooth_profile(dice: Dice, knots: int) -> FloatArray:
-    """(12, 2) radius 0.1..1 and height 0..1 of a smooth wall."""
-    heights = np.linspace(0, 1, 12)
-    radii = np.interp(heights, np.linspace(0, 1, knots), 0.2 + 0.8 * dice.units(knots))
-    soft = np.convolve(np.pad(radii, 1, mode="edge"), [0.25, 0.5, 0.25], mode="valid")
-    return np.column_stack([soft, heights])
-
-
-def hollow(wall: FloatArray, thick: float) -> FloatArray:
-    """(2 K, 2) profile of a vessel: its outer wall upwards, then its inner one down to the axis."""
-    inner = wall[::-1] - [thick, 0]
-    inner[-1, 1] += thick
-    bottom = [[0.0, wall[0, 1]]]
-    return np.concatenate([bottom, wall, np.maximum(inner, [0.0, -np.inf]), [[0.0, inner[-1, 1]]]])
 
 
 def _bottle(dice: Dice) -> list[Pieces]:
@@ -111,7 +94,7 @@ def _pot(dice: Dice) -> list[Pieces]:
 def _vase(dice: Dice) -> list[Pieces]:
     """A vase, bowl, goblet, candle holder or baluster."""
     size = [dice.between(0.1, 0.3), dice.between(0.15, 0.8)]
-    wall = smooth_profile(dice, dice.whole(3, 6)) * size
+    wall = smooth_wall(dice, dice.whole(3, 6), 0.2) * size
     profile = (
         hollow(wall, size[0] * dice.between(0.03, 0.12))
         if dice.chance(0.7)
@@ -120,7 +103,7 @@ def _vase(dice: Dice) -> list[Pieces]:
     parts: list[Pieces] = [[revolve(profile, dice.pick((6, 8, 20, 24, 28)))]]
     if dice.chance(0.3):
         top = wall[-1, 0]
-        parts.append([revolve(smooth_profile(dice, 4)[::-1] * [top, 0.3 * size[1]], 16) + [0, 0, size[1]]])
+        parts.append([revolve(smooth_wall(dice, 4, 0.2)[::-1] * [top, 0.3 * size[1]], 16) + [0, 0, size[1]]])
     return parts
 
 
