@@ -189,6 +189,12 @@ def test_weights_come_back_in_half_precision_and_say_the_same(tmp_path):
         (lambda f: (f / "config.json").write_text("{}"), "holds no simart-nano"),
         (
             lambda f: (f / "config.json").write_text(
+                (f / "config.json").read_text().replace('"heads": 2', '"heads": 3')
+            ),
+            "holds no simart-nano",
+        ),
+        (
+            lambda f: (f / "config.json").write_text(
                 (f / "config.json").read_text().replace('"channels": 16', '"channels": 32')
             ),
             "of different ones",

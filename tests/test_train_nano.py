@@ -158,3 +158,11 @@ def test_a_mistake_is_one_line_and_makes_no_run(tmp_path, capfd, monkeypatch, op
     (line,) = re.findall(r"^error: .*$", capfd.readouterr().err, re.MULTILINE)
     assert told in line
     assert not (tmp_path / "out").exists()
+
+
+def test_a_run_below_a_file_is_refused(tmp_path, capfd, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").write_text("mine")
+    assert run(["train", "nano", "--run", "file/run", "--steps", "1"]) != 0
+    (line,) = re.findall(r"^error: .*$", capfd.readouterr().err, re.MULTILINE)
+    assert "cannot write the run to file/run" in line

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from pydantic import BaseModel, ConfigDict, Field
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from ..tables import Table
 
 
-class NanoConfig(BaseModel):
-    """Sizes of a `NanoNetwork`; the defaults are those of the shipped weights."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+class NanoConfig(Table):
+    """Sizes of a `NanoNetwork`."""
 
     channels: int = Field(default=128, gt=0, description="Channels of a piece's token.")
     layers: int = Field(default=5, ge=1, description="Transformer layers.")
@@ -18,3 +20,9 @@ class NanoConfig(BaseModel):
     pair_channels: int = Field(default=16, gt=0, description="Channels of a pair of pieces.")
     labels: tuple[str, ...] = Field(default=(), description="What a part may be called; none of these is ''.")
     categories: tuple[str, ...] = Field(default=(), description="What an object may be.")
+
+    @model_validator(mode="after")
+    def _check_heads(self) -> Self:
+        if self.channels % self.heads:
+            raise ValueError(f"heads {self.heads} does not divide channels {self.channels}")
+        return self

@@ -5,18 +5,19 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 
 from simart_kit.errors import BadInputError, OutputError
 
+from ..tables import Table
 from .config import NanoConfig
 from .network import NanoNetwork
 
 CONFIG_FILE, WEIGHTS_FILE = "config.json", "model.safetensors"
 
 
-class _ConfigFile(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+class _ConfigFile(Table):
+    """The JSON file."""
 
     schema_version: Literal[1] = Field(alias="schema")
     model: Literal["simart-nano"]

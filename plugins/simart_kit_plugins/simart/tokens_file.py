@@ -13,7 +13,7 @@ from pydantic import Field, ValidationError
 
 from simart_kit.errors import BadInputError, OutputError
 
-from .tables import Table, told
+from ..tables import Table, told
 from .token_parser import parse
 from .tokens import TokenGrid, VoxelTokens
 

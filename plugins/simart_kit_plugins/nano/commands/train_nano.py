@@ -12,7 +12,7 @@ import typer
 
 from simart_kit.cli.common import print_json, print_rows, stdout_kept
 from simart_kit.cli.options import Json, Verbose
-from simart_kit.errors import BadInputError
+from simart_kit.errors import BadInputError, OutputError
 
 if TYPE_CHECKING:
     from ..network import NanoNetwork
@@ -86,13 +86,13 @@ def train_nano(
 def _plan(changes: dict[str, object]) -> TrainingPlan:
     from pydantic import ValidationError
 
+    from ...tables import told
     from ..training.plan import TrainingPlan
 
     try:
         return TrainingPlan.model_validate(changes)
     except ValidationError as error:
-        told = "; ".join(f"{'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors())
-        raise BadInputError(f"training options: {told}") from error
+        raise BadInputError(f"training options: {told(error)}") from error
 
 
 def _check(run: Path, resume: bool, evaluate: bool) -> None:
@@ -117,7 +117,10 @@ def _performed(
     from ..weights import save_network
 
     files = {use: pool.shards(plan, run / "objects", use) for use in (pool.TRAIN, pool.SEEN, pool.UNSEEN)}
-    run.mkdir(parents=True, exist_ok=True)
+    try:
+        run.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot write the run to {run}: {error.strerror}") from error
     with claimed(run):
         _make([shard for some in files.values() for shard in some], processes, quiet)
         examples = pool.read(files[pool.TRAIN])

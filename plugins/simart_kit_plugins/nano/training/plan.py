@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
+from ...tables import Table
 from ..config import NanoConfig
 
 # Categories that no training sees: kinds of things and of motions that others resemble more or less.
@@ -26,10 +27,8 @@ UNSEEN = (
 )
 
 
-class TrainingPlan(BaseModel):
+class TrainingPlan(Table):
     """Data, schedule and network; equal plans give equal weights on one kind of device."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
     objects: int = Field(default=40_000, gt=0, description="Made-up objects to train on.")
     held_out: int = Field(default=600, gt=0, description="Objects to judge on, of another seed.")

@@ -9,8 +9,8 @@ from pydantic import ValidationError
 
 from simart_kit.errors import BadInputError
 
+from ...tables import told
 from ..models import VoxelConfig
-from ..tables import told
 
 ZERO, FORCE_SPARSE, DENSE = "zero", "force-sparse", "dense"
 

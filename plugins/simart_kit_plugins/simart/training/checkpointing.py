@@ -22,8 +22,8 @@ from torch.optim import AdamW
 
 from simart_kit.errors import BadInputError, OutputError
 
+from ...tables import told
 from ..models import VoxelModel
-from ..tables import told
 from ..vqvae.checkpoint import CONFIG_FILE, WEIGHTS_FILE, save_checkpoint
 from ..vqvae.config_file import read_config
 from ..vqvae.weights import read_tensors

@@ -10,7 +10,7 @@ from pydantic import Field, ValidationError, model_validator
 
 from simart_kit.errors import BadInputError, OutputError
 
-from ..tables import Table, told
+from ...tables import Table, told
 
 Stage = Literal[1, 2]
 

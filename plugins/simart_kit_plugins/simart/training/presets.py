@@ -13,8 +13,8 @@ from pydantic import Field, ValidationError
 
 from simart_kit.errors import BadInputError
 
+from ...tables import Table, told
 from ..models import VoxelConfig, VoxelModel, build_model, model_kind
-from ..tables import Table, told
 from ..vqvae.checkpoint import load_checkpoint
 from .config import TrainingConfig
 

@@ -8,7 +8,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from ..tables import Table
+from ...tables import Table
 
 Mode = Literal["zero", "force-sparse", "dense"]
 Layout = Literal["spatial", "flat-view"]

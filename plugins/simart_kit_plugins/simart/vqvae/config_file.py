@@ -10,8 +10,8 @@ from pydantic import Field, ValidationError
 
 from simart_kit.errors import BadInputError
 
+from ...tables import Table, told
 from ..models import VoxelConfig, kind_of, model_kind
-from ..tables import Table, told
 
 
 class _ConfigFile(Table):
