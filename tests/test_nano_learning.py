@@ -30,7 +30,7 @@ def examples():
 
 
 def small(**changes):
-    base = {"channels": 32, "layers": 2, "heads": 4, "hidden": 48, "point_channels": 16, "pair_channels": 8}
+    base = {"channels": 32, "layers": 2, "heads": 4, "hidden": 48, "point_channels": 16}
     return NanoConfig(**(base | {"labels": ("door", "drawer", "screen"), "categories": NAMES} | changes))
 
 
@@ -122,8 +122,8 @@ def test_the_order_of_points_and_the_company_of_other_objects_change_nothing(exa
         alone, both = network(batch_of([one])), network(batch_of([one, other]))
     size = len(one.own)
     for name in ("together", "moves", "kind", "label"):
-        first, second = getattr(alone, name)[0], getattr(both, name)[0, :size]
-        second = second[:, :size] if name == "together" else second
+        first, second = getattr(alone, name)[0, :size], getattr(both, name)[0, :size]
+        first, second = (v[:, :size] if name == "together" else v for v in (first, second))
         assert torch.allclose(first, second, atol=1e-4), name
     assert torch.allclose(alone.together, alone.together.transpose(1, 2), atol=1e-5)
 

@@ -16,7 +16,7 @@ from simart_kit.cli.main import run
 from simart_kit.errors import BadInputError
 
 torch.set_num_threads(1)
-TINY = NanoConfig(channels=16, layers=1, heads=2, hidden=16, point_channels=8, pair_channels=4)
+TINY = NanoConfig(channels=16, layers=1, heads=2, hidden=16, point_channels=8)
 PLAN = TrainingPlan(
     objects=12, held_out=4, steps=6, batch_size=4, warm_up=2, checkpoint_every=2, log_every=2, network=TINY
 )
@@ -70,14 +70,22 @@ def test_objects_of_a_pool_depend_on_their_number_alone(tmp_path, objects):
         assert np.array_equal(one.numbers, other.numbers)
 
 
-def test_every_pass_takes_each_example_at_most_once_and_alike_sizes_together():
-    sizes = np.random.default_rng(0).integers(1, 100, 640).tolist()
+def test_every_pass_takes_each_small_example_at_most_once_and_alike_sizes_together():
+    sizes = np.random.default_rng(0).integers(1, 90, 640).tolist()
     batches = [batch_rows(sizes, 8, seed=1, step=step) for step in range(80)]
     assert sorted(row for batch in batches for row in batch) == list(range(640))
     spread = np.mean([np.ptp([sizes[row] for row in batch]) for batch in batches])
     assert spread < np.mean([np.ptp(sizes[k : k + 8]) for k in range(0, 640, 8)]) / 3
     assert batch_rows(sizes, 8, seed=1, step=80) != batches[0]
     assert batch_rows([3, 4], 8, seed=1, step=5) in ([0, 1], [1, 0])
+
+
+def test_two_passes_take_each_large_example_once_and_each_small_one_twice():
+    sizes = [150 if row < 64 else 20 for row in range(320)]
+    rows = [row for step in range(72) for row in batch_rows(sizes, 8, seed=1, step=step)]
+    # A pass has 32 of the large ones and all 256 small ones: 36 steps.
+    assert sorted(row for row in rows if row < 64) == list(range(64))
+    assert sorted(row for row in rows if row >= 64) == sorted([*range(64, 320)] * 2)
 
 
 def test_a_run_that_was_killed_ends_with_the_weights_it_would_have_had(plan, objects, tmp_path):

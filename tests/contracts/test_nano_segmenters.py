@@ -13,7 +13,7 @@ BUILT_IN = Plugins(installed=False)
 @pytest.fixture(scope="module")
 def model(tmp_path_factory):
     """Weights that nobody trained; they say that everything moves, so that there are parts."""
-    config = NanoConfig(channels=16, layers=1, heads=2, hidden=16, point_channels=8, pair_channels=4)
+    config = NanoConfig(channels=16, layers=1, heads=2, hidden=16, point_channels=8)
     network = NanoNetwork(config, 0)
     network.moves.bias.data.fill_(3.0)
     folder = tmp_path_factory.mktemp("model")

@@ -10,11 +10,13 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from simart_kit.arrays import Float32Array, FloatArray
+from simart_kit.arrays import FloatArray
 
 from .config import NanoConfig
 from .network import Batch
 from .store import Stored
+
+_STEP = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +27,7 @@ class Targets:
         part: (B, S) part of each piece; 0 is the body, -1 is padding.
         kind: (B, S) how the piece's part moves; -1 where it does not.
         label: (B, S) what the piece's part is called; -1 for the body and padding.
-        category: (B,).
+        category: (B,) what the object is; -1 where it is two.
         size: (B,) natural logarithm of the longest side [m].
         owner: (P,) object of each moving part.
         share: (P, S) how much of the part each piece is.
@@ -58,25 +60,30 @@ class Targets:
 
 def batch_of(examples: Sequence[Stored]) -> Batch:
     """Examples side by side."""
-    most = max(len(e.own) for e in examples)
+    most = _padded(examples)
     count = len(examples)
     numbers = np.zeros((count, most, examples[0].own.shape[1]), dtype=np.float32)
-    pairs = np.zeros((count, most, most, 7), dtype=np.float32)
+    gap = np.zeros((count, most, most), dtype=np.float32)
     there = np.zeros((count, most), dtype=np.bool_)
     points, owner = [], []
     for row, e in enumerate(examples):
         size = len(e.own)
         numbers[row, :size], there[row, :size] = e.own, True
-        pairs[row, :size, :size] = pair_numbers(e.own, e.gap)
+        gap[row, :size, :size] = e.gap
         points.append(point_numbers(e))
         owner.append(e.piece.astype(np.int64) + row * most)
     return Batch(
         torch.from_numpy(np.concatenate(points)),
         torch.from_numpy(np.concatenate(owner)),
         torch.from_numpy(numbers),
-        torch.from_numpy(pairs),
+        torch.from_numpy(gap),
         torch.from_numpy(there),
     )
+
+
+def _padded(examples: Sequence[Stored]) -> int:
+    """Pieces of a batch: one of few numbers, since the arithmetic is prepared anew for every new shape."""
+    return -(-max(len(e.own) for e in examples) // _STEP) * _STEP
 
 
 def point_numbers(e: Stored) -> FloatArray:
@@ -88,21 +95,9 @@ def point_numbers(e: Stored) -> FloatArray:
     return np.concatenate([points, inside, facing, e.colors.astype(np.float32) - 0.5], axis=1)
 
 
-def pair_numbers(own: Float32Array, gap: Float32Array) -> FloatArray:
-    """(S, S, PAIR_NUMBERS): how near, how far apart, and how alike in colour, direction and size."""
-    near = gap.astype(np.float32)
-    middle = np.linalg.norm(own[:, None, :3] - own[None, :, :3], axis=2)
-    color = np.linalg.norm(own[:, None, 18:21] - own[None, :, 18:21], axis=2)
-    facing = np.linalg.norm(own[:, None, 12:18] - own[None, :, 12:18], axis=2)
-    area = own[:, None, 21] - own[None, :, 21]
-    same = np.broadcast_to(np.eye(len(own), dtype=np.float32), near.shape)
-    numbers = [np.exp(-near / 0.004), np.exp(-near / 0.02), middle, np.exp(-8 * color), facing, area, same]
-    return np.stack(numbers, axis=2).astype(np.float32)
-
-
 def targets_of(examples: Sequence[Stored], config: NanoConfig) -> Targets:
     """What is right for `batch_of` the same examples."""
-    most = max(len(e.own) for e in examples)
+    most = _padded(examples)
     widest = max([int(c) for e in examples for c in e.candidates], default=1)
     labels = {label: k for k, label in enumerate(config.labels, start=1)}
     categories = {name: k for k, name in enumerate(config.categories, start=1)}
@@ -130,7 +125,7 @@ def targets_of(examples: Sequence[Stored], config: NanoConfig) -> Targets:
             rows.append((row, share / share.sum(), numbers, real, right, int(e.kind[k]), e.travel[k], parent))
     columns = [np.array(column) for column in zip(*rows, strict=True)] if rows else _no_parts(most, examples)
     owner, shares, evidence, real_, right_, part_kind, travel, parent_ = map(torch.from_numpy, columns)
-    known = [categories.get(e.category, 0) for e in examples]
+    known = [categories.get(e.category, 0) if e.category else -1 for e in examples]
     return Targets(
         torch.from_numpy(part),
         torch.from_numpy(kind),

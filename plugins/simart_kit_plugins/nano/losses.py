@@ -43,14 +43,16 @@ class NanoLosses:
 def losses(model: NanoNetwork, reading: Reading, targets: Targets) -> NanoLosses:
     """All terms for a batch."""
     read = model.parts(reading.tokens, targets.owner, targets.share, targets.numbers, targets.real)
-    real = targets.part >= 0
+    real, whole = targets.part >= 0, targets.category >= 0
     terms = {
         "together": _together(reading.together, targets.part),
         "moves": binary_cross_entropy_with_logits(reading.moves[real], (targets.part[real] > 0).float()),
         "kind": _known(reading.kind, targets.kind),
         "label": _known(reading.label, targets.label),
-        "category": cross_entropy(reading.category, targets.category),
-        "size": smooth_l1_loss(reading.size, targets.size),
+        "category": _known(reading.category, targets.category),
+        "size": smooth_l1_loss(reading.size[whole], targets.size[whole])
+        if whole.any()
+        else reading.size.sum() * 0,
         **_of_parts(model, read, targets),
     }
     total = torch.stack([_WEIGHTS[name] * term for name, term in terms.items()]).sum()

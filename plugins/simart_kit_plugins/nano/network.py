@@ -6,16 +6,18 @@ from dataclasses import dataclass, fields
 
 import torch
 from torch import Tensor, nn
-from torch.nn.functional import gelu, scaled_dot_product_attention
+from torch.nn.functional import gelu
 
 from .config import NanoConfig
 from .evidence import COUNT
+from .pairs import PAIR_NUMBERS, pair_numbers
 from .scene import PIECE_NUMBERS
 from .truth import KINDS
 
 POINT_NUMBERS = 3 + 3 + 6 + 3
-PAIR_NUMBERS = 7
 _SMALL = 0.02
+# Of so many parts in training, one has its joint chosen by the candidates' evidence alone.
+_BLIND = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,14 +28,14 @@ class Batch:
         points: (N, POINT_NUMBERS) of all objects.
         owner: (N,) row of `numbers`, flattened to B * S, that each point is of.
         numbers: (B, S, PIECE_NUMBERS).
-        pairs: (B, S, S, PAIR_NUMBERS).
+        gap: (B, S, S) least distance of two pieces [sides of the object].
         there: (B, S) bool, which pieces exist.
     """
 
     points: Tensor
     owner: Tensor
     numbers: Tensor
-    pairs: Tensor
+    gap: Tensor
     there: Tensor
 
     def to(self, device: torch.device | str) -> Batch:
@@ -87,16 +89,16 @@ class NanoNetwork(nn.Module):
     def __init__(self, config: NanoConfig, seed: int = 0) -> None:
         super().__init__()
         self.config = config
-        width, pair = config.channels, config.pair_channels
+        width = config.channels
         with torch.random.fork_rng(devices=[]):
             torch.default_generator.manual_seed(seed)
             self.points = _perceptron(POINT_NUMBERS, config.point_channels, config.point_channels)
             self.enter = _perceptron(2 * config.point_channels + PIECE_NUMBERS, config.hidden, width)
-            self.pairs = _perceptron(PAIR_NUMBERS, pair, pair)
+            # A bias of every head of every layer, and one of the answer whether two pieces belong together.
+            self.biases = nn.Conv2d(PAIR_NUMBERS, config.layers * config.heads + 1, 1)
             self.layers = nn.ModuleList(_Layer(config) for _ in range(config.layers))
             self.norm = nn.LayerNorm(width)
             self.left, self.right = nn.Linear(width, width), nn.Linear(width, width)
-            self.near = nn.Linear(pair, 1)
             self.moves = nn.Linear(width, 1)
             self.kind = nn.Linear(width, len(KINDS))
             self.label = nn.Linear(width, len(config.labels) + 1)
@@ -104,27 +106,24 @@ class NanoNetwork(nn.Module):
             self.size = nn.Linear(width, 1)
             self.part = _perceptron(3 * width, config.hidden, width)
             self.part_kind = nn.Linear(width, len(KINDS))
-            self.candidate = _perceptron(COUNT, width, width)
-            self.choice = _perceptron(2 * width, config.hidden // 2, 3)
+            # Parts have a hundred candidates: what is done for each has to be little.
+            self.candidate = _perceptron(COUNT, config.choice_channels, config.choice_channels)
+            self.asking = nn.Linear(width, config.choice_channels)
+            self.choice = nn.Linear(config.choice_channels, 3)
             self.carrier = _perceptron(2 * width, config.hidden // 2, 1)
 
     def forward(self, batch: Batch) -> Reading:
         """Read objects."""
-        count, most = batch.there.shape
-        features = self.points(batch.points)
-        index = batch.owner[:, None].expand_as(features)
-        empty = features.new_zeros(count * most, features.shape[1])
-        means = empty.scatter_reduce(0, index, features, "mean", include_self=False)
-        highest = empty.scatter_reduce(0, index, features, "amax", include_self=False)
-        pooled = torch.cat([means, highest], dim=1).reshape(count, most, -1)
+        pooled = self._pooled(batch)
         tokens = self.enter(torch.cat([pooled, batch.numbers], dim=2))
-        pairs = gelu(self.pairs(batch.pairs))
+        biases = self.biases(pair_numbers(batch.numbers, batch.gap))
         hidden = (~batch.there)[:, None, None, :]
-        for layer in self.layers:
-            tokens = layer(tokens, pairs, hidden)
+        *of_layers, near = biases.split([self.config.heads] * self.config.layers + [1], dim=1)
+        for layer, bias in zip(self.layers, of_layers, strict=True):
+            tokens = layer(tokens, bias, hidden)
         tokens = self.norm(tokens)
         alike = self.left(tokens) @ self.right(tokens).transpose(1, 2) / tokens.shape[2] ** 0.5
-        together = alike + self.near(pairs)[..., 0]
+        together = alike + near[:, 0]
         together = together + together.transpose(1, 2)
         seen = batch.there[..., None].to(tokens.dtype)
         whole = (tokens * seen).sum(1) / seen.sum(1).clamp(min=1)
@@ -137,6 +136,17 @@ class NanoNetwork(nn.Module):
             self.category(whole),
             self.size(whole)[..., 0],
         )
+
+    def _pooled(self, batch: Batch) -> Tensor:
+        """(B, S, 2 * point_channels) mean and maximum of what the points of each piece say."""
+        with _plain(batch.points):
+            features = self.points(batch.points)
+        sizes = torch.bincount(batch.owner, minlength=batch.there.numel())
+        order = torch.argsort(batch.owner, stable=True)
+        rows = features[order]
+        pooled = torch.cat([torch.segment_reduce(rows, how, lengths=sizes) for how in ("mean", "max")], dim=1)
+        # Where there is no piece, nothing is the mean of no points.
+        return pooled.masked_fill(sizes[:, None] == 0, 0).reshape(*batch.there.shape, -1)
 
     def parts(
         self, tokens: Tensor, owner: Tensor, share: Tensor, numbers: Tensor, real: Tensor
@@ -156,10 +166,12 @@ class NanoNetwork(nn.Module):
         highest = own.masked_fill(~inside[..., None], -1e4).amax(1)
         whole = own.mean(1)
         embedding = self.part(torch.cat([mean, highest, whole], dim=1))
-        shown = torch.cat(
-            [embedding[:, None].expand(-1, numbers.shape[1], -1), self.candidate(numbers)], dim=2
-        )
-        said = self.choice(shown)
+        seen = embedding
+        if self.training:
+            told = torch.arange(len(embedding), device=embedding.device) % _BLIND > 0
+            seen = embedding * told[:, None]
+        with _plain(numbers):
+            said = self.choice(gelu(self.candidate(numbers) + self.asking(seen.float())[:, None]))
         right = said[..., 0].masked_fill(~real, -torch.inf)
         return PartReading(self.part_kind(embedding), right, said[..., 1:], embedding)
 
@@ -181,19 +193,26 @@ class _Layer(nn.Module):
         self.heads = config.heads
         self.before, self.after = nn.LayerNorm(width), nn.LayerNorm(width)
         self.ask, self.answer = nn.Linear(width, 3 * width), nn.Linear(width, width)
-        self.bias = nn.Linear(config.pair_channels, config.heads)
         self.think = _perceptron(width, config.hidden, width)
         nn.init.normal_(self.answer.weight, std=_SMALL)
 
-    def forward(self, tokens: Tensor, pairs: Tensor, hidden: Tensor) -> Tensor:
+    def forward(self, tokens: Tensor, biases: Tensor, hidden: Tensor) -> Tensor:
+        """(B, S, D) tokens; (B, H, S, S) biases; (B, 1, 1, S) True where there is no piece."""
         count, most, width = tokens.shape
         split = self.ask(self.before(tokens)).reshape(count, most, 3, self.heads, -1)
         query, key, value = split.permute(2, 0, 3, 1, 4)
-        bias = self.bias(pairs).permute(0, 3, 1, 2).masked_fill(hidden, -torch.inf)
-        heard = scaled_dot_product_attention(query, key, value, attn_mask=bias.to(query.dtype))
+        # torch's own attention has no fast path for biases that learn; its slow one takes longer than this.
+        heeded = query @ key.transpose(2, 3) / query.shape[3] ** 0.5 + biases
+        shares = heeded.masked_fill(hidden, -1e4).softmax(3).to(value.dtype)
+        heard = shares @ value
         tokens = tokens + self.answer(heard.transpose(1, 2).reshape(count, most, width))
         result: Tensor = tokens + self.think(self.after(tokens))
         return result
+
+
+def _plain(tensor: Tensor) -> torch.autocast:
+    """Single precision, where rows are of ever new numbers: half would be prepared anew for each."""
+    return torch.autocast(tensor.device.type, enabled=False)
 
 
 def _perceptron(inner: int, hidden: int, outer: int) -> nn.Sequential:

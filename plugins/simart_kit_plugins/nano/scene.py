@@ -11,8 +11,9 @@ from simart_kit.arrays import Float32Array, FloatArray
 from .cloud import Cloud
 
 # Pairs of points farther apart tell nothing of contact.
-_REACH = 0.06
+REACH = 0.06
 _NEIGHBOURS = 8
+_LEAST = 1e-5
 PIECE_NUMBERS = 3 + 3 + 6 + 6 + 3 + 2
 
 
@@ -22,7 +23,7 @@ class Pieces:
 
     Attributes:
         own: (S, PIECE_NUMBERS) float32: middle, half size, spread, directions, colour, area and flatness.
-        gap: (S, S) float32 least distance of sampled points; `_REACH` where it is more.
+        gap: (S, S) float32 least distance of sampled points; `REACH` where it is more.
     """
 
     own: Float32Array
@@ -45,7 +46,7 @@ def pieces_of(cloud: Cloud) -> Pieces:
             sizes * 2,
             facing,
             _means(cloud.colors, cloud) - 0.5,
-            np.log(share + 1e-5) / 6 + 1,
+            area_number(share.astype(np.float64)),
             flat,
         ]
     )
@@ -53,17 +54,27 @@ def pieces_of(cloud: Cloud) -> Pieces:
     return Pieces(own.astype(np.float32), _gaps(cloud))
 
 
+def area_number(share: FloatArray) -> FloatArray:
+    """Shares of the surface as numbers about 0..1 that tell small ones apart."""
+    return np.asarray(np.log(share + _LEAST) / 6 + 1)
+
+
+def area_share(number: FloatArray) -> FloatArray:
+    """The inverse of `area_number`."""
+    return np.asarray(np.maximum(np.exp((number - 1) * 6) - _LEAST, 0))
+
+
 def _gaps(cloud: Cloud) -> Float32Array:
     """(S, S) by the nearest few points of each point."""
     from scipy.spatial import cKDTree
 
     count = min(_NEIGHBOURS + 1, len(cloud.points))
-    found_near = cKDTree(cloud.points).query(cloud.points, k=range(1, count + 1), distance_upper_bound=_REACH)
+    found_near = cKDTree(cloud.points).query(cloud.points, k=range(1, count + 1), distance_upper_bound=REACH)
     near, other = (np.asarray(value) for value in found_near)
     here = np.repeat(cloud.piece, near.shape[1])
     flat, found = near.ravel(), np.isfinite(near.ravel())
     there = cloud.piece[np.where(found, other.ravel(), 0)]
-    gap = np.full((cloud.count, cloud.count), _REACH)
+    gap = np.full((cloud.count, cloud.count), REACH)
     np.minimum.at(gap, (here[found], there[found]), flat[found])
     gap = np.minimum(gap, gap.T)
     np.fill_diagonal(gap, 0)

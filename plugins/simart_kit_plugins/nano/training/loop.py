@@ -16,6 +16,7 @@ from simart_kit.errors import BadInputError
 from ..config import NanoConfig
 from ..learning import batch_of, targets_of
 from ..losses import losses
+from ..mixing import varied
 from ..network import NanoNetwork
 from ..store import Stored
 from . import checkpoint
@@ -24,6 +25,8 @@ from .plan import TrainingPlan
 
 # Objects of a like size lie side by side in so many batches: less padding.
 _SORTED = 16
+# Objects of more pieces than this take most of the time: a pass has every second of them.
+_LARGE = 90
 
 
 @dataclass(frozen=True)
@@ -67,7 +70,8 @@ def train(
     began, gathered = time.perf_counter() - state.seconds, list[dict[str, float]]()
     while state.step < plan.steps:
         rows = batch_rows([len(one.own) for one in examples], plan.batch_size, plan.seed, state.step)
-        terms = _step(state, plan, [examples[row] for row in rows])
+        generator = np.random.default_rng((plan.seed, state.step, 1))
+        terms = _step(state, plan, varied([examples[row] for row in rows], generator))
         gathered.append(terms)
         state.seconds = time.perf_counter() - began
         last = state.step == plan.steps
@@ -90,13 +94,16 @@ def batch_rows(sizes: Sequence[int], batch_size: int, seed: int, step: int) -> l
         seed: of the order.
         step: 0...
     """
-    count = len(sizes)
+    weights = np.asarray(sizes)
+    kinds = [np.flatnonzero((weights <= _LARGE) | (np.arange(len(weights)) % 2 == k)) for k in range(2)]
+    kinds = [kind for kind in kinds if len(kind)]
+    count = min(map(len, kinds))
     batch_size = min(batch_size, count)
     per_pass = count // batch_size
-    generator = np.random.default_rng((seed, step // per_pass))
-    order = generator.permutation(count)
+    turn = step // per_pass
+    generator = np.random.default_rng((seed, turn))
+    order = generator.permutation(kinds[turn % len(kinds)])[:count]
     group = _SORTED * batch_size
-    weights = np.asarray(sizes)
     ordered = [
         part[np.argsort(weights[part], kind="stable")] for part in np.split(order, range(group, count, group))
     ]

@@ -35,7 +35,7 @@ class TrainingPlan(Table):
     unseen: tuple[str, ...] = Field(default=UNSEEN, description="Categories to judge on and not to train on.")
     static_share: float = Field(default=0.14, ge=0, le=1, description="Share of objects that do not move.")
     seed: int = Field(default=0, ge=0, lt=2**31, description="Decides all that is random.")
-    steps: int = Field(default=20_000, gt=0, description="Steps of training.")
+    steps: int = Field(default=16_000, gt=0, description="Steps of training.")
     batch_size: int = Field(default=16, gt=0, description="Objects a step.")
     learning_rate: float = Field(default=1e-3, gt=0, description="Step size of AdamW, after the warm-up.")
     warm_up: int = Field(default=200, ge=0, description="Steps in which the rate rises from 0.")
@@ -46,7 +46,7 @@ class TrainingPlan(Table):
     )
     checkpoint_every: int = Field(default=500, gt=0, description="Steps between checkpoints.")
     log_every: int = Field(default=50, gt=0, description="Steps between lines.")
-    precision: Literal["fp32", "bf16"] = Field(default="fp32", description="Arithmetic of the network.")
+    precision: Literal["fp32", "bf16"] = Field(default="bf16", description="Arithmetic of the network.")
     device: str = Field(default="cpu", pattern=r"^(cpu|cuda(:[0-9]+)?)$", description="cpu or cuda:N.")
     network: NanoConfig = Field(
         default=NanoConfig(), description="Sizes; labels and categories are filled in."

@@ -1,0 +1,54 @@
+"""How two pieces lie to each other: fixed numbers, of which the network makes its attention's biases."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor
+
+PAIR_NUMBERS = 13
+# Columns of `Pieces.own`.
+_MIDDLE, _HALF, _FACING, _COLOR, _AREA = slice(0, 3), slice(3, 6), slice(12, 18), slice(18, 21), 21
+# Two boxes that touch overlap a little [sides of the object].
+_MARGIN = 0.004
+
+
+@torch.no_grad()
+def pair_numbers(own: Tensor, gap: Tensor) -> Tensor:
+    """Numbers of all pairs; a quarter turn about z or a mirror changes none.
+
+    Args:
+        own: (B, S, PIECE_NUMBERS) of the pieces.
+        gap: (B, S, S) least distance [sides of the object].
+
+    Returns:
+        (B, PAIR_NUMBERS, S, S), all about -1..1: near (3), middles apart (2), one above the other, how much
+        of each box is in the other's (2), alike in shape, color and direction, one larger than the other,
+        and whether they are the same.
+    """
+    middle, half = own[..., _MIDDLE], own[..., _HALF]
+    apart = torch.cdist(middle, middle)
+    low, high = middle - half - _MARGIN, middle + half + _MARGIN
+    shared = torch.minimum(high[:, :, None], high[:, None]) - torch.maximum(low[:, :, None], low[:, None])
+    within = shared.clamp(min=0).prod(-1) / (high - low).prod(-1)[..., None]
+    above = middle[..., 2]
+    area = own[..., _AREA]
+    alike = [
+        torch.exp(-8 * torch.cdist(half, half)),
+        torch.exp(-8 * torch.cdist(own[..., _COLOR], own[..., _COLOR])),
+        torch.cdist(own[..., _FACING], own[..., _FACING]),
+    ]
+    same = torch.eye(own.shape[1], device=own.device).expand(len(own), -1, -1)
+    return torch.stack(
+        [
+            *(torch.exp(-gap / reach) for reach in (0.004, 0.01, 0.03)),
+            apart,
+            torch.exp(-8 * apart),
+            above[:, :, None] - above[:, None],
+            within,
+            within.transpose(1, 2),
+            *alike,
+            area[:, :, None] - area[:, None],
+            same,
+        ],
+        dim=1,
+    )
