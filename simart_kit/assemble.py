@@ -14,16 +14,26 @@ from .mesh import Mesh, Note
 from .physics import DEFAULT_MATERIAL, MATERIALS
 from .stages import PartGuess, Segmentation
 
+# How much bounds and area of a cut mesh may differ from the whole one, as a share.
+_SAME = 1e-5
+
 
 def checked(segmentation: Segmentation, mesh: Mesh) -> Segmentation:
     """The segmentation with clean, unique names; joint hints follow the new names.
 
+    Args:
+        segmentation: what a segmenter returned.
+        mesh: the mesh that it was given.
+
     Raises:
-        ValueError: labels of a wrong dtype, shape or range, guesses that do not match them, or evidence
-            that is not of this mesh.
+        ValueError: a mesh of its own that is not the same surface, labels of a wrong dtype, shape or range,
+            guesses that do not match them, or evidence that is not of this mesh.
     """
     if not isinstance(segmentation, Segmentation):
         raise ValueError(f"returned {type(segmentation).__name__}, expected a simart_kit.Segmentation")
+    if segmentation.mesh is not None:
+        _check_surface(segmentation.mesh, mesh)
+        mesh = segmentation.mesh
     labels = np.asarray(segmentation.face_part)
     if not np.issubdtype(labels.dtype, np.integer):
         raise ValueError(f"face_part has dtype {labels.dtype}, expected int32")
@@ -54,6 +64,27 @@ def checked(segmentation: Segmentation, mesh: Mesh) -> Segmentation:
     )
 
 
+def _check_surface(cut: Mesh, given: Mesh) -> None:
+    """Refuse a cut mesh that is not the surface that was given, in the same place and with the same looks."""
+    if not isinstance(cut, Mesh):
+        raise ValueError(f"mesh is a {type(cut).__name__}, expected a simart_kit.Mesh or None")
+    off = float(np.abs(cut.bounds - given.bounds).max())
+    if off > _SAME * given.diagonal:
+        raise ValueError(f"mesh is no cut of the one given: its bounds are {off:.3g} m off")
+    area, expected = float(cut.face_areas.sum()), float(given.face_areas.sum())
+    if abs(area - expected) > _SAME * expected:
+        raise ValueError(f"mesh is no cut of the one given: its area is {area:.6g} m2, not {expected:.6g} m2")
+    lost = [name for name in ("normals", "uv", "colors", "face_node") if _has(given, name) > _has(cut, name)]
+    if lost or len(cut.materials) != len(given.materials):
+        raise ValueError(f"mesh is no cut of the one given: it lost {', '.join(lost) or 'materials'}")
+    if (cut.up, cut.metres_per_unit) != (given.up, given.metres_per_unit):
+        raise ValueError("mesh is no cut of the one given: its up axis or unit differs")
+
+
+def _has(mesh: Mesh, name: str) -> bool:
+    return getattr(mesh, name) is not None
+
+
 def assemble(
     name: str,
     mesh: Mesh,
@@ -66,12 +97,21 @@ def assemble(
 
     The body is the largest part (by area) that no joint moves.
 
+    Args:
+        name: of the asset.
+        mesh: the one that the segmenter was given; the asset holds the cut one where there is one.
+        segmentation: as `checked` returns it.
+        joints: of its parts.
+        asset_from_source: (4, 4) from the file's coordinates [m].
+        floating: whether the base is free.
+
     Raises:
         BadInputError: joints that name unknown parts or are not a tree.
     """
+    surface = segmentation.mesh_of(mesh)
     children = {j.child for j in joints}
     still = [i for i, p in enumerate(segmentation.parts) if p.name not in children]
-    areas = np.bincount(segmentation.face_part, mesh.face_areas, minlength=len(segmentation.parts))
+    areas = np.bincount(segmentation.face_part, surface.face_areas, minlength=len(segmentation.parts))
     body = segmentation.parts[max(still, key=lambda i: areas[i])] if still else segmentation.parts[0]
     loose = [segmentation.parts[i] for i in still if segmentation.parts[i] is not body]
     fixed = [Joint(f"{p.name}_mount", "fixed", body.name, p.name) for p in loose]
@@ -79,7 +119,7 @@ def assemble(
     texts = [f"material '{m}' is not in the table: {DEFAULT_MATERIAL} is used" for m in unknown]
     return Asset(
         name=name,
-        mesh=replace(mesh, notes=()),
+        mesh=replace(surface, notes=()),
         face_part=segmentation.face_part,
         parts=tuple(_part(guess) for guess in segmentation.parts),
         joints=(*joints, *fixed),

@@ -89,6 +89,8 @@ def save_value(value: object, folder: Path) -> None:
     elif isinstance(value, Segmentation):
         names = np.array([p.name for p in value.parts])
         np.savez_compressed(folder / "segmentation.npz", face_part=value.face_part, parts=names)
+        if value.mesh is not None:
+            save_value(value.mesh, folder)
 
 
 def _told(error: ValidationError) -> str:

@@ -121,7 +121,7 @@ def _articulate(
     stage, registration = build(recipe.joints, JointPredictor, plugins, recipe.seed)
 
     def predicted(segmentation: Segmentation) -> Asset:
-        joints = stage.predict(loaded.mesh, segmentation)
+        joints = stage.predict(segmentation.mesh_of(loaded.mesh), segmentation)
         return assemble(name, loaded.mesh, segmentation, joints, loaded.asset_from_source, floating)
 
     return runner.stage("joints", registration, predicted, segmentation)

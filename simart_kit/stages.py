@@ -72,13 +72,16 @@ class Segmentation:
     """A part for every face.
 
     Attributes:
-        face_part: (F,) int32 part ids 0..P-1, every id used, in the order of the mesh's faces.
+        face_part: (F,) int32 part ids 0..P-1, every id used, in the order of the mesh's faces: of `mesh`
+            where there is one, else of the mesh that was given.
         parts: one guess a part; part 0 is the body when no joint says otherwise.
         joints: joint hints of a model that predicts parts and joints at once, naming `parts` by their names;
             None when the segmenter has no opinion.
         face_segment: (F,) int32 finer pieces that were grouped, for the recording, or None.
         notes: what was decided, for the report.
-        evidence: how it came about, for the recording: each piece gets a view of its name.
+        evidence: how it came about, for the recording: each piece gets a view of its name. Values at
+            vertices are those of the mesh that `face_part` is of.
+        mesh: the mesh that `face_part` is of, where faces had to be cut; None: the mesh that was given.
     """
 
     face_part: IntArray
@@ -87,6 +90,11 @@ class Segmentation:
     face_segment: IntArray | None = None
     notes: tuple[Note, ...] = ()
     evidence: tuple[Evidence, ...] = ()
+    mesh: Mesh | None = None
+
+    def mesh_of(self, given: Mesh) -> Mesh:
+        """The mesh that `face_part` is of: the `given` one, unless faces had to be cut."""
+        return given if self.mesh is None else self.mesh
 
 
 class Segmenter(Stage):
@@ -96,7 +104,10 @@ class Segmenter(Stage):
 
     @abstractmethod
     def segment(self, mesh: Mesh) -> Segmentation:
-        """Label every face of a mesh in the canonical frame (see DESIGN: +Z up, front -Y, nominal metres)."""
+        """Label every face of a mesh in the canonical frame (see DESIGN: +Z up, front -Y, nominal metres).
+
+        Where a part ends inside a face, the faces there may be cut: the result then brings its mesh.
+        """
 
 
 class JointPredictor(Stage):
@@ -108,7 +119,8 @@ class JointPredictor(Stage):
     def predict(self, mesh: Mesh, segmentation: Segmentation) -> tuple[Joint, ...]:
         """Joints between parts, by the names in `segmentation.parts`; parts left out are fixed to the body.
 
-        The names in `segmentation.parts` are already clean and unique. No joint at all is a valid answer:
+        The mesh is the one that `segmentation.face_part` is of. The names in `segmentation.parts` are already
+        clean and unique. No joint at all is a valid answer:
         the object is static.
         """
 

@@ -41,7 +41,7 @@ def _log_object(tape: Tape, history: History, source: Source) -> None:
     _log_stages(tape, history, source, mesh)
     _log_modifiers(tape, history, source)
     if history.asset is not None:
-        _log_asset(tape, history.asset, _shaded(history.asset, mesh, source))
+        _log_asset(tape, history.asset, _shaded(history.asset, _labelled(history, source, mesh), source))
         log_collision(tape, history.asset)
 
 
@@ -49,11 +49,20 @@ def _log_stages(tape: Tape, history: History, source: Source, mesh: Mesh) -> Non
     """Source, voxels, segments, parts and how they were found, in the frame of the loaded mesh."""
     log_textured(tape, "source", mesh, {"mesh": np.arange(len(mesh.faces), dtype=np.int32)})
     log_voxels(tape, mesh)
-    if history.segmentation is not None:
-        log_parts(tape, mesh, history.segmentation)
-        if history.segmentation.face_segment is not None:
-            log_segments(tape, mesh, history.segmentation.face_segment)
-        log_evidence(tape, source.mesh, mesh, history.segmentation.evidence)
+    segmentation = history.segmentation
+    if segmentation is not None:
+        labelled = _labelled(history, source, mesh)
+        log_parts(tape, labelled, segmentation)
+        if segmentation.face_segment is not None:
+            log_segments(tape, labelled, segmentation.face_segment)
+        log_evidence(tape, segmentation.mesh_of(source.mesh), labelled, segmentation.evidence)
+
+
+def _labelled(history: History, source: Source, shaded: Mesh) -> Mesh:
+    """The mesh that the labels are of, with normals: the loaded one, `shaded`, unless faces were cut."""
+    segmentation = history.segmentation
+    cut = source.mesh if segmentation is None else segmentation.mesh_of(source.mesh)
+    return shaded if cut is source.mesh else with_normals(cut)
 
 
 def _log_modifiers(tape: Tape, history: History, source: Source) -> None:

@@ -30,11 +30,13 @@ class PartLabels:
         face_part: (F,) int32 part 0..P-1 of every face, -1 for none.
         parts: one a part.
         source: where they come from, for people.
+        mesh: the mesh that `face_part` is of, where a segmenter cut faces; None: the mesh file's.
     """
 
     face_part: IntArray
     parts: tuple[PartGuess, ...]
     source: str
+    mesh: Mesh | None = None
 
 
 def part_labels(
@@ -103,4 +105,4 @@ def _of_segmenter(mesh: Mesh, recipe: str, plugins: Plugins) -> PartLabels:
         found = checked(stage.segment(mesh), mesh)
     except Exception as cause:
         raise registration.failure(cause) from cause
-    return PartLabels(found.face_part, found.parts, f"segmenter '{stage.name}'")
+    return PartLabels(found.face_part, found.parts, f"segmenter '{stage.name}'", found.mesh)

@@ -59,7 +59,7 @@ def tokenise(
     surface = read_source(path, plugins).mesh
     labels = part_labels(path, surface, parts, recipe, plugins)
     names = [part.name for part in labels.parts]
-    made = object_grids(surface, labels.face_part, names)
+    made = object_grids(labels.mesh or surface, labels.face_part, names)
     grids = np.concatenate([made.whole[None], made.parts])
     tokens = encode_grids(loaded.model, grids)
     decoded = decode_tokens(loaded.model, tokens)
