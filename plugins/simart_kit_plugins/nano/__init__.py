@@ -22,6 +22,7 @@ def register_segmenters(register: Register) -> None:
 
 @hookimpl
 def register_commands(register: RegisterCommand) -> None:
-    """Register `generate` and `train nano`."""
+    """Register `generate`, `train nano` and `bench oracle`."""
     register("generate", f"{_COMMANDS}.generate:generate", "Write made-up articulated objects.")
     register("train nano", f"{_COMMANDS}.train_nano:train_nano", "Train the small model of parts and joints.")
+    register("bench oracle", f"{_COMMANDS}.oracle:oracle", "Tell where nano loses parts and joints.")

@@ -1,0 +1,1 @@
+"""The oracle ladder: what is lost where between a mesh and its joints, one true thing replaced a step."""
