@@ -20,7 +20,7 @@ from simart_kit.segments import find_segments
 from simart_kit.srgb import linear_to_srgb, srgb_to_linear
 from simart_kit.testing.meshes import boxes_mesh, cabinet_asset
 
-TINY = {"channels": 16, "layers": 1, "heads": 2, "hidden": 16, "point_channels": 8, "pair_channels": 4}
+TINY = {"channels": 16, "layers": 1, "heads": 2, "hidden": 16, "point_channels": 8}
 CONFIG = NanoConfig(**TINY, labels=("door", "drawer"), categories=("cabinet",))
 SURE = 12.0
 
@@ -33,18 +33,20 @@ class Oracle(NanoNetwork):
         self.truth, self.slides = torch.as_tensor(part), slides
 
     def forward(self, batch):
-        count = batch.there.shape[1]
-        same = self.truth[:, None] == self.truth[None]
-        label = torch.zeros(1, count, 3)
-        label[0, self.truth > 0, 1] = SURE
+        sides, most = batch.there.shape
+        truth = torch.full((most,), -1)
+        truth[: len(self.truth)] = self.truth
+        same = truth[:, None] == truth[None]
+        label = torch.zeros(sides, most, 3)
+        label[:, truth > 0, 1] = SURE
         return Reading(
-            torch.zeros(1, count, 16),
-            (same.float() * 2 * SURE - SURE)[None],
-            ((self.truth > 0).float() * 2 * SURE - SURE)[None],
-            torch.zeros(1, count, len(KINDS)),
+            torch.zeros(sides, most, 16),
+            (same.float() * 2 * SURE - SURE).expand(sides, -1, -1),
+            ((truth > 0).float() * 2 * SURE - SURE).expand(sides, -1),
+            torch.zeros(sides, most, len(KINDS)),
             label,
-            torch.tensor([[0.0, SURE]]),
-            torch.tensor([0.5]),
+            torch.tensor([[0.0, SURE]]).expand(sides, -1),
+            torch.full((sides,), 0.5),
         )
 
     def parts(self, tokens, owner, share, numbers, real):
@@ -145,7 +147,8 @@ def test_what_the_network_says_becomes_parts_and_joints_in_metres(tmp_path, monk
     pieces = find_segments(asset.mesh).face_segment
     part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
     monkeypatch.setattr("simart_kit_plugins.nano.weights.load_network", lambda folder: Oracle(part, slides))
-    found = Nano(read_options(Nano, {"model": "any"})).segment(asset.mesh)
+    options = read_options(Nano, {"model": "any", "pool": False, "votes": 1})
+    found = Nano(options).segment(asset.mesh)
     assert [guess.name for guess in found.parts] == ["body", "door", "door_2"]
     # Parts are numbered by how sure the network is; which is which, their faces tell.
     for number in (1, 2):
@@ -162,11 +165,9 @@ def test_what_the_network_says_becomes_parts_and_joints_in_metres(tmp_path, monk
 
 
 def test_parts_that_carry_each_other_in_a_ring_hang_on_the_body():
-    network = NanoNetwork(CONFIG, 0)
-    logits = torch.tensor([[-9.0, 5.0, -9.0], [5.0, -9.0, -9.0], [5.0, -9.0, -9.0]])
-    network.carriers = lambda child, parent: logits.clone()
-    read = PartReading(*[torch.zeros(3, 1)] * 4)
-    assert predicting._carriers(network, read) == [0, 1, 1]
+    # Columns are the body and the three parts.
+    chance = np.array([[0.1, 0.0, 0.8, 0.1], [0.1, 0.8, 0.0, 0.1], [0.1, 0.8, 0.1, 0.0]])
+    assert predicting._carriers(chance) == [0, 1, 1]
 
 
 def test_weights_come_back_in_half_precision_and_say_the_same(tmp_path):

@@ -17,7 +17,7 @@ from .cloud import Cloud, Samples, sample_evenly, sample_pieces
 from .superfaces import nearest_superface, superfaces
 
 # Points of a cloud, and pieces at most: of solids that lie apart, and of skins that have to be cut.
-POINTS, MOST_PIECES, SUPERFACES = 3072, 384, 512
+POINTS, MOST_PIECES, SUPERFACES = 3072, 384, 192
 _SKIN_POINTS = 12_288
 
 
@@ -31,6 +31,7 @@ class MeshCloud:
         center: (3,) of the mesh's bounding box [m].
         size: its longest side [m].
         skin: whether the pieces are patches of a skin, and not solids that lie apart.
+        middles: (K, 9) of a skin's patches, for `nearest_superface`; else None.
     """
 
     cloud: Cloud
@@ -38,6 +39,7 @@ class MeshCloud:
     center: FloatArray
     size: float
     skin: bool
+    middles: FloatArray | None
 
 
 def mesh_cloud(mesh: Mesh, segments: Segments, generator: np.random.Generator) -> MeshCloud:
@@ -51,19 +53,20 @@ def mesh_cloud(mesh: Mesh, segments: Segments, generator: np.random.Generator) -
     center = mesh.bounds.mean(axis=0)
     size = float(np.ptp(mesh.bounds, axis=0).max())
     skin = segments.patches or segments.count == 1
+    middles = None
     if skin:
-        cloud, face_piece = _of_skin(mesh, center, size, generator)
+        cloud, face_piece, middles = _of_skin(mesh, center, size, generator)
     else:
         face_piece = _few(mesh, segments.face_segment)
         samples = sample_pieces(mesh.face_areas, face_piece, POINTS, generator)
         cloud = _cloud(mesh, samples, face_piece[samples.face], center, size)
-    return MeshCloud(cloud, face_piece, center, size, skin)
+    return MeshCloud(cloud, face_piece, center, size, skin, middles)
 
 
 def _of_skin(
     mesh: Mesh, center: FloatArray, size: float, generator: np.random.Generator
-) -> tuple[Cloud, IntArray]:
-    """The cloud of a skin's patches, and (F,) the patch of each face: that of its middle."""
+) -> tuple[Cloud, IntArray, FloatArray]:
+    """The cloud of a skin's patches, (F,) the patch of each face, that of its middle, and their middles."""
     samples = sample_evenly(mesh.face_areas, _SKIN_POINTS, generator)
     cloud = _cloud(mesh, samples, np.zeros(len(samples.face), dtype=np.int64), center, size)
     patch, middles = superfaces(cloud.points, cloud.normals, cloud.colors, SUPERFACES, generator)
@@ -76,7 +79,7 @@ def _of_skin(
     kept = Cloud(
         cloud.points[thin], cloud.normals[thin], cloud.colors[thin], patch[thin], cloud.area[thin], count
     )
-    return kept, face_piece
+    return kept, face_piece, middles
 
 
 def _few(mesh: Mesh, segment: IntArray) -> IntArray:

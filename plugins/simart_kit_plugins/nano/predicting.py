@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import torch
 
 from simart_kit.arrays import FloatArray, IntArray
 from simart_kit.asset import JointKind
 
-from .candidates import Candidates, candidates
+from .candidates import SLIDE, Candidates, candidates
 from .cloud import Cloud
-from .evidence import TOUCHING, evidence
-from .examples import Example
+from .evidence import COUNT, TOUCHING, evidence
 from .grouping import Group, groups, piece_parts
-from .learning import batch_of
-from .network import NanoNetwork, PartReading, Reading
-from .scene import Pieces, pieces_of
-from .store import stored
+from .network import NanoNetwork
 from .truth import KINDS
+from .voting import Said, SaidParts, say, say_parts
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,66 +54,70 @@ class Prediction:
     Attributes:
         parts: the surest first.
         piece_part: (S,) part of each piece, from 1; 0 is the body.
+        moves: (S,) chance of each piece to be of a moving part.
         category: what it is; empty where no known one fits.
         category_score: 0..1.
-        size: longest side [m].
+        size: longest side [m], and the factor by which opinions differ about it, at least 1.
     """
 
     parts: tuple[PredictedPart, ...]
     piece_part: IntArray
+    moves: FloatArray
     category: str
     category_score: float
-    size: float
+    size: tuple[float, float]
 
 
-@torch.no_grad()
-def predict(network: NanoNetwork, cloud: Cloud, least: float = 0.4) -> Prediction:
+def predict(network: NanoNetwork, cloud: Cloud, least: float = 0.4, votes: int = 4) -> Prediction:
     """Read a cloud.
 
     Args:
         network: on the CPU.
         cloud: of the object.
         least: parts less sure than this stay with the body.
+        votes: from how many sides it is seen, 1..8.
     """
-    pieces = pieces_of(cloud)
-    nothing = Example(cloud, pieces, np.zeros(cloud.count, dtype=np.int64), np.array([True]), (), "", 1.0)
-    reading = network(batch_of([stored(nothing)]))
-    area = np.asarray(np.bincount(cloud.piece, cloud.area, cloud.count), dtype=np.float64)
-    together = reading.together[0].sigmoid().numpy().astype(np.float64)
-    moves = reading.moves[0].sigmoid().numpy().astype(np.float64)
-    found = [g for g in groups(moves, together, area, least) if len(g.pieces) < cloud.count]
-    parts = _parts(network, reading, cloud, pieces, found, area) if found else ()
-    category = reading.category[0].softmax(0)
-    best = int(category.argmax())
+    said = say(network, cloud, votes)
+    area = _areas(cloud)
+    found = [g for g in groups(said.moves, said.together, area, least) if len(g.pieces) < cloud.count]
+    parts = _parts(network, said, cloud, found)
+    best = int(said.category.argmax())
     name = network.config.categories[best - 1] if best else ""
-    size = float(reading.size[0].exp())
-    return Prediction(parts, piece_parts(found, cloud.count), name, float(category[best]), size)
+    part, chance = piece_parts(found, cloud.count), float(said.category[best])
+    return Prediction(parts, part, said.moves, name, chance, said.size)
+
+
+def predict_groups(
+    network: NanoNetwork, cloud: Cloud, found: Sequence[Group], votes: int = 4
+) -> tuple[PredictedPart, ...]:
+    """The joints of given groups of pieces, in their order; none holds all pieces."""
+    return _parts(network, say(network, cloud, votes), cloud, found)
 
 
 def _parts(
-    network: NanoNetwork,
-    reading: Reading,
-    cloud: Cloud,
-    pieces: Pieces,
-    found: list[Group],
-    area: FloatArray,
+    network: NanoNetwork, said: Said, cloud: Cloud, found: Sequence[Group]
 ) -> tuple[PredictedPart, ...]:
+    if not found:
+        return ()
+    area = _areas(cloud)
     lines = [_candidates(cloud, group) for group in found]
     widest = max(len(own) for own, _ in lines)
     share = np.zeros((len(found), cloud.count), dtype=np.float32)
-    numbers = np.zeros((len(found), widest, lines[0][1].shape[1]), dtype=np.float32)
+    numbers = np.zeros((len(found), widest, COUNT))
     real = np.zeros((len(found), widest), dtype=np.bool_)
     for row, (group, (own, told)) in enumerate(zip(found, lines, strict=True)):
         share[row, group.pieces] = area[group.pieces] / area[group.pieces].sum()
         numbers[row, : len(own)], real[row, : len(own)] = told, True
-    owner = torch.zeros(len(found), dtype=torch.int64)
-    given = (torch.from_numpy(array) for array in (share, numbers, real))
-    read = network.parts(reading.tokens, owner, *given)
-    carrier = _carriers(network, read)
+    parts = say_parts(network, said.tokens, share, numbers, real)
+    carrier = _carriers(parts.carrier)
     return tuple(
-        _part(network, reading, read, row, group, own, carrier[row])
+        _part(network, said, parts, row, group, own, carrier[row])
         for row, (group, (own, _)) in enumerate(zip(found, lines, strict=True))
     )
+
+
+def _areas(cloud: Cloud) -> FloatArray:
+    return np.asarray(np.bincount(cloud.piece, cloud.area, cloud.count), dtype=np.float64)
 
 
 def _candidates(cloud: Cloud, group: Group) -> tuple[Candidates, FloatArray]:
@@ -130,11 +131,9 @@ def _candidates(cloud: Cloud, group: Group) -> tuple[Candidates, FloatArray]:
     return found, evidence(found, own, rest, gap)
 
 
-def _carriers(network: NanoNetwork, read: PartReading) -> list[int]:
+def _carriers(chance: FloatArray) -> list[int]:
     """Of each part, the number of the part that carries it, or 0; without loops."""
-    logits = network.carriers(read.embedding, read.embedding)
-    logits.fill_diagonal_(-torch.inf)
-    chosen = torch.cat([logits.new_zeros(len(logits), 1), logits], dim=1).argmax(1).tolist()
+    chosen = [int(above) for above in chance.argmax(axis=1)]
     for part in range(1, len(chosen) + 1):
         seen, above = {part}, chosen[part - 1]
         while above and above not in seen:
@@ -142,31 +141,29 @@ def _carriers(network: NanoNetwork, read: PartReading) -> list[int]:
             above = chosen[above - 1]
         if above:
             chosen[part - 1] = 0
-    return [int(above) for above in chosen]
+    return chosen
 
 
 def _part(
     network: NanoNetwork,
-    reading: Reading,
-    read: PartReading,
+    said: Said,
+    parts: SaidParts,
     row: int,
     group: Group,
     own: Candidates,
     parent: int,
 ) -> PredictedPart:
-    kinds = read.kind[row].softmax(0)
+    kinds = parts.kind[row]
     kind = KINDS[int(kinds.argmax())]
     slide = kind == "prismatic"
-    chance = read.right[row, : len(own)].clone()
-    chance[torch.from_numpy((own.source == 0) != slide)] = -torch.inf
-    shares = chance.softmax(0)
-    best = int(shares.argmax())
-    lower, upper = (float(value) for value in read.travel[row, best] * (1 if slide else torch.pi))
+    chance = parts.right[row, : len(own)] * ((own.source == SLIDE) == slide)
+    best = int(chance.argmax())
+    lower, upper = parts.travel[row, best].tolist()
     axis = own.axis[best]
     if -lower > upper:  # positive opens
         axis, lower, upper = -axis, -upper, -lower
     limited = kind in ("revolute", "prismatic")
-    label = int(reading.label[0, torch.from_numpy(group.pieces)].softmax(1).mean(0).argmax())
+    label = int(said.label[group.pieces].mean(axis=0).argmax())
     return PredictedPart(
         group.pieces,
         network.config.labels[label - 1] if label else "",
@@ -177,5 +174,5 @@ def _part(
         min(lower, 0.0) if limited else 0.0,
         max(upper, 0.0) if limited else 0.0,
         parent,
-        float(kinds.max() * shares[best]),
+        float(kinds.max() * chance[best] / max(chance.sum(), 1e-9)),
     )

@@ -10,18 +10,17 @@ import numpy as np
 from pydantic import Field
 
 import simart_kit
-from simart_kit import Joint, Limits, Note, PartGuess, Segmentation, Segmenter
-from simart_kit.arrays import frozen_ints, vec3
-from simart_kit.asset import clean_name, unique_names
+from simart_kit import Note, Segmentation, Segmenter
+from simart_kit.arrays import frozen_ints
 from simart_kit.errors import BadInputError
 from simart_kit.segments import find_segments
 
 if TYPE_CHECKING:
     from simart_kit import Mesh
-    from simart_kit.arrays import IntArray
 
     from .meshes import MeshCloud
-    from .predicting import PredictedPart, Prediction
+    from .predicting import Prediction
+    from .proposals import Proposal
 
 
 class Nano(Segmenter):
@@ -38,7 +37,8 @@ class Nano(Segmenter):
         least: float = Field(
             default=0.4, ge=0, le=1, description="Parts less sure than this stay with the body."
         )
-        seed: int = Field(default=0, ge=0, description="Of the places that the surface is looked at.")
+        votes: int = Field(default=4, ge=1, le=8, description="From how many sides it is looked at.")
+        pool: bool = Field(default=True, description="Add what `geometric` finds, and keep what can move.")
 
     options: Options
 
@@ -58,59 +58,51 @@ class Nano(Segmenter):
         from .weights import load_network
 
         network = load_network(Path(self.options.model))
-        segments = find_segments(mesh)
-        seen = mesh_cloud(mesh, segments, np.random.default_rng(self.options.seed))
-        said = predict(network, seen.cloud, self.options.least)
-        face_part, parts = _shown(said, seen)
-        names = unique_names(["body", *(clean_name(part.label or "part") for part in parts)])
-        guesses = [
-            PartGuess(name, label=part.label, score=part.score)
-            for name, part in zip(names[1:], parts, strict=True)
-        ]
-        hints = [
-            _joint(part, name, names[part.parent], seen) for part, name in zip(parts, names[1:], strict=True)
-        ]
-        return Segmentation(
-            frozen_ints(face_part),
-            (PartGuess(names[0], label="body"), *guesses),
-            joints=tuple(hints),
-            face_segment=frozen_ints(seen.face_piece.astype(np.int32)),
-            notes=_notes(said, seen),
-        )
+        seen = mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(self.seed))
+        said = predict(network, seen.cloud, self.options.least, self.options.votes)
+        found = _of_skin(mesh, said, seen) if seen.skin else self._of_pieces(mesh, said, seen)
+        return replace(found, notes=_notes(said, seen, len(found.parts) - 1))
+
+    def _of_pieces(self, mesh: Mesh, said: Prediction, seen: MeshCloud) -> Segmentation:
+        from .pooling import pooled
+        from .proposals import of_geometry, of_network, segmentation_of
+
+        proposals: list[Proposal] = of_network(said, said.piece_part[seen.face_piece], seen)
+        if self.options.pool:
+            moves = said.moves[seen.face_piece]
+            proposals = pooled(mesh, of_geometry(mesh, self.seed), proposals, moves)
+        found = segmentation_of(proposals, len(mesh.faces))
+        return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
 
 
-def _shown(said: Prediction, seen: MeshCloud) -> tuple[IntArray, list[PredictedPart]]:
-    """(F,) part of each face, and the parts that have faces, in the order of their numbers from 1."""
-    label = said.piece_part[seen.face_piece]
-    if label.all():  # the body's patches are the middle of no face
-        label = np.where(label == np.bincount(label).argmax(), 0, label)
-    kept = [number for number in range(1, len(said.parts) + 1) if (label == number).any()]
-    place = {0: 0} | {number: k for k, number in enumerate(kept, start=1)}
-    numbers = np.array([place.get(number, 0) for number in range(len(said.parts) + 1)], dtype=np.int32)
-    parts = [said.parts[number - 1] for number in kept]
-    return numbers[label], [replace(part, parent=place.get(part.parent, 0)) for part in parts]
+def _of_skin(mesh: Mesh, said: Prediction, seen: MeshCloud) -> Segmentation:
+    """Parts of a skin, their ends where creases, colours and short ways suggest; large faces may be cut."""
+    from .boundaries.cutting import cut
+    from .boundaries.patch_parts import patch_parts, patch_size
+    from .proposals import of_network, segmentation_of
+
+    assert seen.middles is not None
+    face_part = said.piece_part[seen.face_piece].astype(np.int32)
+    if not said.parts:
+        found = segmentation_of([], len(mesh.faces))
+        return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
+    at = patch_parts(mesh, seen.middles, said.piece_part)
+    done = cut(mesh, face_part, at, patch_size(mesh, seen.cloud.count))
+    part = done.face_part
+    if part.all():  # the body's patches are the middle of no face
+        part = np.where(part == np.bincount(part).argmax(), 0, part)
+    found = segmentation_of(of_network(said, part, seen), len(part))
+    pieces = frozen_ints(seen.face_piece[done.face_source].astype(np.int32))
+    return replace(found, face_segment=pieces, mesh=None if done.mesh is mesh else done.mesh)
 
 
-def _joint(part: PredictedPart, name: str, parent: str, seen: MeshCloud) -> Joint:
-    scale = seen.size if part.kind == "prismatic" else 1.0
-    limited = part.kind in ("revolute", "prismatic")
-    return Joint(
-        f"{name}_joint",
-        part.kind,
-        parent,
-        name,
-        vec3(part.origin * seen.size + seen.center),
-        vec3(part.axis),
-        Limits(part.lower * scale, part.upper * scale) if limited else None,
-        confidence=part.confidence,
-        evidence=(f"simart-nano: {part.confidence:.2f} sure of kind and axis",),
-    )
-
-
-def _notes(said: Prediction, seen: MeshCloud) -> tuple[Note, ...]:
+def _notes(said: Prediction, seen: MeshCloud, parts: int) -> tuple[Note, ...]:
     kind = "patches of one skin" if seen.skin else "pieces that lie apart"
     what = f"taken for a {said.category} ({said.category_score:.2f})" if said.category else "of no known kind"
+    size, factor = said.size
     return (
-        Note("segment", "info", f"{seen.cloud.count} {kind}; {what}, about {said.size:.2g} m"),
-        Note("segment", "info", f"{len(said.parts)} moving parts"),
+        Note(
+            "segment", "info", f"{seen.cloud.count} {kind}; {what}, about {size:.2g} m (/ or x {factor:.2f})"
+        ),
+        Note("segment", "info", f"{parts} moving parts"),
     )

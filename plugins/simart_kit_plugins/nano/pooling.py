@@ -1,0 +1,105 @@
+"""Parts that the network and geometry propose, made one set in which no face is claimed twice."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from simart_kit.arrays import FloatArray
+from simart_kit.kinematics import joint_motion
+from simart_kit.sweeping import Sweep
+
+from .proposals import Proposal, overlap
+
+if TYPE_CHECKING:
+    from simart_kit import Joint, Mesh
+    from simart_kit.arrays import BoolArray
+
+# Two proposals are of one part from this overlap on; one that loses more than this share is dropped.
+_SAME, _LOST = 0.5, 0.3
+# What geometry finds is dropped where the network holds its faces this surely for the body's.
+_STILL = 0.1
+# A joint that can go less than this share of its way is stuck.
+_FREE, _STEPS = 0.25, 8
+
+
+def pooled(
+    mesh: Mesh, geometry: Sequence[Proposal], network: Sequence[Proposal], moves: FloatArray
+) -> list[Proposal]:
+    """What both find once, with the joint that is free to move; then what either finds alone.
+
+    Args:
+        mesh: of the faces.
+        geometry: proposals of geometry alone: its borders and lines are the more exact ones.
+        network: proposals of the network, the surest first.
+        moves: (F,) chance that a face moves, by the network.
+    """
+    areas = mesh.face_areas
+    trusted = [k for k, p in enumerate(geometry) if _mean(moves, p.faces, areas) >= _STILL]
+    kept = [geometry[k] for k in trusted]
+    place = {("geometry", k): row for row, k in enumerate(trusted)}
+    taken = np.zeros(len(areas), dtype=np.bool_)
+    for proposal in kept:
+        taken |= proposal.faces
+    for k, proposal in enumerate(network):
+        twin = next((r for r, p in enumerate(kept) if overlap(mesh, p.faces, proposal.faces) >= _SAME), None)
+        if twin is not None:
+            place["network", k] = twin
+            kept[twin] = _freer(mesh, kept[twin], proposal)
+            continue
+        free = proposal.faces & ~taken
+        if areas[free].sum() < (1 - _LOST) * areas[proposal.faces].sum() or not free.any():
+            continue
+        if _stuck(mesh, proposal.joint, free):
+            continue
+        place["network", k] = len(kept)
+        kept.append(replace(proposal, faces=free))
+        taken |= free
+    return _carried(kept, place, geometry, network)
+
+
+def _freer(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
+    """The first proposal, with the other's joint where its own is stuck and the other's is not."""
+    if _stuck(mesh, one.joint, one.faces) and not _stuck(mesh, other.joint, one.faces):
+        return replace(one, joint=other.joint)
+    return one
+
+
+def _stuck(mesh: Mesh, joint: Joint, faces: BoolArray) -> bool:
+    """Whether a joint with limits is blocked both ways almost at once."""
+    if joint.limits is None:
+        return False
+    paths = Sweep(mesh.triangles[faces], mesh.triangles[~faces])
+
+    def motion(position: float) -> FloatArray:
+        matrix, origin = joint_motion(joint, position), np.array(joint.origin)
+        matrix[:3, 3] += origin - matrix[:3, :3] @ origin
+        return matrix
+
+    ends = (joint.limits.lower, joint.limits.upper)
+    free = sum(abs(paths.free(motion, end, _STEPS)) for end in ends if end)
+    return free < _FREE * (ends[1] - ends[0])
+
+
+def _mean(values: FloatArray, faces: BoolArray, areas: FloatArray) -> float:
+    return float(np.average(values[faces], weights=areas[faces] + 1e-12))
+
+
+def _carried(
+    kept: Sequence[Proposal],
+    place: dict[tuple[str, int], int],
+    geometry: Sequence[Proposal],
+    network: Sequence[Proposal],
+) -> list[Proposal]:
+    """Each with the place of its carrier among those kept; the body where that was dropped."""
+    whose = {row: key for key, row in reversed(place.items())}
+    result = []
+    for row, proposal in enumerate(kept):
+        source, k = whose[row]
+        parent = (geometry if source == "geometry" else network)[k].parent
+        found = None if parent is None else place.get((source, parent))
+        result.append(replace(proposal, parent=None if found == row else found))
+    return result

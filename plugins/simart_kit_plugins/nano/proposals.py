@@ -1,0 +1,108 @@
+"""Parts that may move, whoever says so: by the network, or by geometry alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from simart_kit import Joint, Limits, PartGuess, Segmentation
+from simart_kit.arrays import BoolArray, FloatArray, vec3
+from simart_kit.asset import clean_name, unique_names
+
+if TYPE_CHECKING:
+    from simart_kit import Mesh
+    from simart_kit.arrays import IntArray
+
+    from .meshes import MeshCloud
+    from .predicting import Prediction
+
+
+@dataclass(frozen=True, eq=False)
+class Proposal:
+    """A part with its joint.
+
+    Attributes:
+        faces: (F,) bool of the mesh.
+        guess: what it is taken for.
+        joint: how it moves; its parent and child are named when all parts are known.
+        parent: place of the part that carries it among those proposed with it; None for the body.
+    """
+
+    faces: BoolArray
+    guess: PartGuess
+    joint: Joint
+    parent: int | None
+
+
+def of_network(said: Prediction, face_part: IntArray, seen: MeshCloud) -> list[Proposal]:
+    """The network's parts that have faces; (F,) face_part numbers them from 1."""
+    kept = [number for number in range(1, len(said.parts) + 1) if (face_part == number).any()]
+    place = {number: k for k, number in enumerate(kept)}
+    proposals = []
+    for number in kept:
+        part = said.parts[number - 1]
+        scale = seen.size if part.kind == "prismatic" else 1.0
+        limited = part.kind in ("revolute", "prismatic")
+        joint = Joint(
+            "joint",
+            part.kind,
+            "body",
+            "part",
+            vec3(part.origin * seen.size + seen.center),
+            vec3(part.axis),
+            Limits(part.lower * scale, part.upper * scale) if limited else None,
+            confidence=part.confidence,
+            evidence=(f"simart-nano: {part.confidence:.2f} sure of kind and axis",),
+        )
+        guess = PartGuess(clean_name(part.label or "part"), label=part.label, score=part.score)
+        proposals.append(Proposal(face_part == number, guess, joint, place.get(part.parent)))
+    return proposals
+
+
+def of_geometry(mesh: Mesh, seed: int) -> list[Proposal]:
+    """What the segmenter and the joint predictor `geometric` find, in their order."""
+    from ..geometric.predictor import GeometricJoints
+    from ..geometric.segmenter import Geometric
+
+    found = Geometric(seed=seed).segment(mesh)
+    names = unique_names([clean_name(guess.name) for guess in found.parts])
+    found = replace(found, parts=tuple(replace(g, name=n) for g, n in zip(found.parts, names, strict=True)))
+    joints = GeometricJoints(seed=seed).predict(mesh, found)
+    place = {joint.child: k for k, joint in enumerate(joints)}
+    return [
+        Proposal(
+            np.asarray(found.face_part == names.index(joint.child)),
+            found.parts[names.index(joint.child)],
+            joint,
+            place.get(joint.parent),
+        )
+        for joint in joints
+    ]
+
+
+def segmentation_of(proposals: Sequence[Proposal], count: int) -> Segmentation:
+    """The body as part 0 and each proposal, with its joint; of a mesh of `count` faces.
+
+    Where two share a face the later one has it; each must keep one.
+    """
+    names = unique_names(["body", *(clean_name(p.guess.label or p.guess.name) for p in proposals)])
+    face_part = np.zeros(count, dtype=np.int32)
+    joints = []
+    for number, proposal in enumerate(proposals, start=1):
+        face_part[proposal.faces] = number
+        parent = names[0 if proposal.parent is None else proposal.parent + 1]
+        joints.append(
+            replace(proposal.joint, name=f"{names[number]}_joint", parent=parent, child=names[number])
+        )
+    guesses = [replace(p.guess, name=name) for p, name in zip(proposals, names[1:], strict=True)]
+    return Segmentation(face_part, (PartGuess("body", label="body"), *guesses), joints=tuple(joints))
+
+
+def overlap(mesh: Mesh, one: BoolArray, other: BoolArray) -> float:
+    """Area that two sets of faces share, as a share of what they cover together."""
+    areas: FloatArray = mesh.face_areas
+    both = areas[one | other].sum()
+    return float(areas[one & other].sum() / both) if both > 0 else 0.0

@@ -1,0 +1,122 @@
+"""Proposals of geometry and network made one set, and votes from several sides."""
+
+import numpy as np
+import pytest
+import torch
+from simart_kit_plugins.nano.cloud import Cloud
+from simart_kit_plugins.nano.config import NanoConfig
+from simart_kit_plugins.nano.network import NanoNetwork
+from simart_kit_plugins.nano.pooling import pooled
+from simart_kit_plugins.nano.proposals import Proposal, segmentation_of
+from simart_kit_plugins.nano.turning import VIEWS
+from simart_kit_plugins.nano.voting import say, say_parts
+
+from simart_kit import Joint, Limits, PartGuess
+from simart_kit.testing.meshes import boxes_mesh
+
+# A body with a bay, a drawer in front of it, a knob on the drawer, and a box on top.
+BOXES = [
+    ((0, 0, 0), (1, 1, 1)),
+    ((0.1, -0.05, 0.1), (0.9, -0.001, 0.9)),
+    ((0.4, -0.1, 0.4), (0.6, -0.051, 0.6)),
+    ((0.2, 0.2, 1.001), (0.8, 0.8, 1.3)),
+]
+MESH = boxes_mesh(BOXES)
+PIECE = np.repeat(np.arange(4), 12)
+ALL_MOVE = np.ones(48)
+
+
+def proposal(pieces, label="part", axis=(0.0, -1.0, 0.0), parent=None, score=0.9):
+    joint = Joint("j", "prismatic", "body", "part", axis=axis, limits=Limits(0.0, 0.5))
+    return Proposal(np.isin(PIECE, pieces), PartGuess(label, label=label, score=score), joint, parent)
+
+
+def test_what_both_find_is_there_once_with_the_joint_of_geometry():
+    one, other = proposal([1, 2], "drawer"), proposal([1, 2], "door", axis=(0.0, 0.0, 1.0))
+    (found,) = pooled(MESH, [one], [other], ALL_MOVE)
+    assert found.guess.label == "drawer"
+    assert found.joint.axis == (0.0, -1.0, 0.0)
+
+
+def test_a_joint_that_is_stuck_gives_way_to_one_that_is_free():
+    into_the_body = (0.0, 1.0, 0.0)
+    (found,) = pooled(MESH, [proposal([1, 2], axis=into_the_body)], [proposal([1, 2])], ALL_MOVE)
+    assert found.joint.axis == (0.0, -1.0, 0.0)
+
+
+def test_what_either_finds_alone_is_kept_and_no_face_is_claimed_twice():
+    lid = proposal([3], "lid", axis=(0.0, 0.0, 1.0))
+    across = proposal([0, 3], "wrong")
+    found = pooled(MESH, [proposal([1, 2])], [lid, across], ALL_MOVE)
+    assert [p.guess.label for p in found] == ["part", "lid"]
+    assert not (found[0].faces & found[1].faces).any()
+
+
+def test_a_stuck_part_that_only_the_network_finds_is_left_out():
+    assert pooled(MESH, [], [proposal([3], axis=(0.0, 0.0, -1.0))], ALL_MOVE) == []
+    assert len(pooled(MESH, [], [proposal([3], axis=(0.0, 0.0, 1.0))], ALL_MOVE)) == 1
+
+
+def test_what_the_network_holds_for_the_body_is_not_moved_by_geometry():
+    still = np.where(PIECE == 3, 0.02, 0.9)
+    found = pooled(MESH, [proposal([1, 2], "drawer"), proposal([3], "lid")], [], still)
+    assert [p.guess.label for p in found] == ["drawer"]
+
+
+def test_a_carrier_is_found_again_among_those_kept():
+    drawer, knob = proposal([1], "drawer"), proposal([2], "knob", parent=0)
+    found = pooled(MESH, [proposal([1], "front")], [drawer, knob], ALL_MOVE)
+    assert [(p.guess.label, p.parent) for p in found] == [("front", None), ("knob", 0)]
+    made = segmentation_of(found, 48)
+    assert [(j.parent, j.child) for j in made.joints] == [("body", "front"), ("front", "knob")]
+    assert np.array_equal(made.face_part, np.array([0, 1, 2, 0])[PIECE])
+
+
+CONFIG = NanoConfig(
+    channels=16, layers=1, heads=2, hidden=16, point_channels=8, labels=("door",), categories=("cabinet",)
+)
+
+
+def cloud_seen_by(quarters, mirrored):
+    generator = np.random.default_rng(0)
+    points, normals = generator.uniform(-0.5, 0.5, (120, 3)), generator.normal(size=(120, 3))
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    angle = quarters * np.pi / 2
+    turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+    matrix = turn @ np.diag([-1.0 if mirrored else 1.0, 1, 1])
+    colors, area = generator.random((120, 3)), np.full(120, 1 / 120)
+    return Cloud(points @ matrix.T, normals @ matrix.T, colors, np.arange(120) % 6, area, 6)
+
+
+@pytest.mark.parametrize("view", VIEWS[1:4])
+def test_votes_from_all_eight_sides_do_not_depend_on_the_side(view):
+    torch.manual_seed(0)
+    network = NanoNetwork(CONFIG, 1).eval()
+    for parameter in network.parameters():
+        parameter.data += 0.3 * torch.randn_like(parameter)
+    one, other = (say(network, cloud_seen_by(*v), 8) for v in ((0, False), view))
+    alone = say(network, cloud_seen_by(*view), 1)
+    assert np.allclose(one.together, other.together, atol=2e-3)
+    assert np.allclose(one.moves, other.moves, atol=2e-3)
+    assert np.abs(alone.moves - one.moves).max() > 0.01
+
+
+def test_limits_seen_in_a_mirror_are_turned_back():
+    class Blind(NanoNetwork):
+        """Says of every candidate that it turns from -0.1 to 0.5 pi, or slides so far, whatever it sees."""
+
+        def parts(self, tokens, owner, share, numbers, real):
+            read = super().parts(tokens, owner, share, numbers, real)
+            travel = torch.tensor([-0.1, 0.5]).expand_as(read.travel)
+            return type(read)(read.kind, read.right, travel, read.embedding)
+
+    network = Blind(CONFIG, 0).eval()
+    tokens = say(network, cloud_seen_by(0, False), 2).tokens
+    numbers = np.zeros((1, 2, network.candidate[0].in_features))
+    numbers[0, 0, 0], numbers[0, 1, 1] = 1, 1  # the first slides, the second turns
+    said = say_parts(
+        network, tokens, np.full((1, 6), 1 / 6, dtype=np.float32), numbers, np.ones((1, 2), bool)
+    )
+    # The second side is a mirror: there a turn goes from -0.5 to 0.1 pi.
+    assert np.allclose(said.travel[0, 0], [-0.1, 0.5])
+    assert np.allclose(said.travel[0, 1], [-0.3 * np.pi, 0.3 * np.pi])
