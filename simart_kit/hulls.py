@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arrays import FloatArray
+from .arrays import FloatArray, IntArray
 from .asset import ConvexMesh
+from .farthest import farthest
 
 MIN_THICKNESS = 0.002  # [m] of the hull of something flat
 _MANY_POINTS, _MANY_DIRECTIONS = 20_000, 1024
-_CHUNK = 4_000_000  # products held in memory at once
 _GOLDEN_ANGLE = np.pi * (3.0 - np.sqrt(5.0))
 
 
@@ -75,7 +75,7 @@ def shrunk(shape: ConvexMesh, margin: float) -> ConvexMesh:
     return ConvexMesh(middle + (shape.vertices - middle) * factor, shape.faces)
 
 
-def _farthest(points: FloatArray, count: int) -> list[int]:
+def _farthest(points: FloatArray, count: int) -> IntArray:
     """Indices of the farthest points along the six axes and over a Fibonacci sphere, `count` at most."""
     step = np.arange(count - 6) + 0.5
     z = 1 - 2 * step / (count - 6)
@@ -83,8 +83,7 @@ def _farthest(points: FloatArray, count: int) -> list[int]:
     turn = _GOLDEN_ANGLE * step
     sphere = np.column_stack([ring * np.cos(turn), ring * np.sin(turn), z])
     directions = np.concatenate([np.eye(3), -np.eye(3), sphere])
-    chunks = np.array_split(directions, max(1, len(points) * count // _CHUNK))
-    return sorted({i for chunk in chunks for i in (chunk @ points.T).argmax(axis=1).tolist()})
+    return np.unique(farthest(points, directions))
 
 
 def _thickened(points: FloatArray, thickness: float) -> FloatArray:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray
-from .topology import connected, edges, touching, unique_rows, weld
+from .topology import connected, edges, stable_order, touching, unique_rows, weld, without_gaps
 from .triangles import areas
 
 WELD_TOLERANCE = 1e-6, 1e-12  # of the diagonal, and [m] at least
@@ -83,7 +83,7 @@ def find_shells(vertices: FloatArray, faces: IntArray) -> Shells:
     once = sides[unique_rows(np.sort(corners[rest[sides]], axis=1))[0]]  # a sheet with two sides is one
     kept = np.sort(np.r_[np.flatnonzero(together), once])
     label = np.r_[sheet[alone], sheet.max(initial=-1) + 1 + group[kept]]
-    _, shell = np.unique(label, return_inverse=True)
+    _, shell = without_gaps(label)
     closed = np.zeros(int(shell.max(initial=-1)) + 1, dtype=bool)
     closed[shell] = np.r_[alone[alone], together[kept]]
     faces = corners[np.r_[np.flatnonzero(alone), rest[kept]]]
@@ -92,12 +92,13 @@ def find_shells(vertices: FloatArray, faces: IntArray) -> Shells:
 
 def _welded(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
     """Points and (F, 3) faces on them, without degenerate faces and those that repeat an earlier one."""
-    used, compact = np.unique(faces, return_inverse=True)
+    used, compact = without_gaps(faces)
     points = vertices[used]
     relative, least = WELD_TOLERANCE
     ids = weld(points, max(relative * float(np.linalg.norm(np.ptp(points, axis=0))), least))
-    _, first = np.unique(ids, return_index=True)
-    corners = ids[compact.reshape(-1, 3)]
+    first = np.zeros(int(ids.max()) + 1, dtype=np.int64)
+    first[ids[::-1]] = np.arange(len(ids))[::-1]  # the last one written stays: the first of each
+    corners = ids[compact]
     a, b, c = corners.T
     corners = corners[(a != b) & (b != c) & (c != a)]
     turn = corners.argmin(axis=1)
@@ -113,7 +114,7 @@ def _sheets(edge: IntArray, way: IntArray) -> tuple[IntArray, BoolArray]:
     the one that turns fewer faces.
     """
     count = len(edge)
-    order = np.argsort(edge, axis=None, kind="stable")
+    order, _ = stable_order(edge.ravel())
     uses = np.bincount(edge.ravel())
     starts = (np.cumsum(uses) - uses)[uses == 2]
     one, two = order[starts], order[starts + 1]
@@ -121,7 +122,7 @@ def _sheets(edge: IntArray, way: IntArray) -> tuple[IntArray, BoolArray]:
     one, two = one // 3, two // 3
     cover = connected(2 * count, np.r_[one, one + count], np.r_[two + against, two + count - against])
     as_is, turned = cover[:count], cover[count:]
-    sheet = np.unique(np.minimum(as_is, turned), return_inverse=True)[1].reshape(-1)
+    sheet = without_gaps(np.minimum(as_is, turned))[1]
     flip = as_is > turned
     mostly = 2 * np.bincount(sheet, flip) > np.bincount(sheet)
     return sheet, np.asarray((flip ^ mostly[sheet]) & (as_is != turned))

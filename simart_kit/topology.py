@@ -158,7 +158,8 @@ def touching(faces: IntArray, pieces: IntArray | None = None) -> IntArray:
         faces: (F, 3).
         pieces: (F,) labels 0.. of faces that are known to hang together, which saves time.
     """
-    count, corners = _without_gaps(faces)
+    used, corners = without_gaps(faces)
+    count = len(used)
     a, b, c = corners.T
     if pieces is None:
         return np.asarray(connected(count, np.r_[a, b], np.r_[b, c])[a])
@@ -171,15 +172,15 @@ def touching(faces: IntArray, pieces: IntArray | None = None) -> IntArray:
     return np.asarray(connected(count + int(pieces.max(initial=-1)) + 1, one, two)[a])
 
 
-def _without_gaps(faces: IntArray) -> tuple[int, IntArray]:
-    """Number of ids that occur, and (F, 3) faces on ids 0.. in the same order."""
-    highest = int(faces.max(initial=-1))
-    if highest > 2 * faces.size:
-        used, ids = np.unique(faces, return_inverse=True)
-        return len(used), ids.reshape(-1, 3)
+def without_gaps(ids: IntArray) -> tuple[IntArray, IntArray]:
+    """The ids 0.. that occur, ascending, and for each of `ids`, of any shape, which of them it is."""
+    highest = int(ids.max(initial=-1))
+    if highest > 2 * ids.size:
+        used, which = np.unique(ids, return_inverse=True)
+        return used, which.reshape(ids.shape)
     occurs = np.zeros(highest + 1, dtype=np.bool_)
-    occurs[faces] = True
-    return int(occurs.sum()), faces if occurs.all() else (np.cumsum(occurs) - 1)[faces]
+    occurs[ids] = True
+    return np.flatnonzero(occurs), ids if occurs.all() else (np.cumsum(occurs) - 1)[ids]
 
 
 def connected(count: int, one: IntArray, two: IntArray) -> IntArray:

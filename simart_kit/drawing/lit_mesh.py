@@ -26,12 +26,20 @@ class LitMesh:
         frame: camera and size of the picture.
         paint: (F, 4) sRGB colour 0..1 and strength 0..1 laid over each face, or None.
         ground: height of a ground that shows only shadow [m], or None.
+        caster: of the mesh's triangles, where there is one already.
     """
 
-    def __init__(self, mesh: Mesh, frame: Frame, paint: FloatArray | None, ground: float | None) -> None:
+    def __init__(
+        self,
+        mesh: Mesh,
+        frame: Frame,
+        paint: FloatArray | None,
+        ground: float | None,
+        caster: Rays | None = None,
+    ) -> None:
         self._frame, self._ground = frame, ground
         self._look = Appearance(mesh, paint)
-        self._caster = Rays(mesh.triangles)
+        self._caster = Rays(mesh.triangles) if caster is None else caster
         self._surface = look_alike(mesh, paint)
         opaque = opaque_faces(mesh)
         shadows = self._caster if opaque.all() else Rays(mesh.triangles[opaque])

@@ -51,39 +51,42 @@ def _moving_panels(asset: Asset) -> dict[str, Image.Image]:
     marks = {name: _marks(posable, fraction) for name, fraction in _FRACTIONS.items() if fraction}
     shown = [m.vertices for m in meshes.values()]
     shown += [stroke.points for strokes in marks.values() for stroke, _ in strokes]
-    camera = _camera(meshes["closed"], meshes["open"], np.concatenate(shown))
+    casters = {name: Rays(meshes[name].triangles) for name in ("closed", "open")}
+    camera = _camera(casters["closed"], casters["open"], np.concatenate(shown))
     ground = min(float(m.bounds[0, 2]) for m in meshes.values())
-    panels = {"closed": _view(meshes["closed"], camera, ground, None)}
+    panels = {"closed": _view(meshes["closed"], camera, ground, None, casters["closed"])}
     for name, strokes in marks.items():
-        picture = _view(meshes[name], camera, ground, _paint(asset))
+        picture = _view(meshes[name], camera, ground, _paint(asset), casters.get(name))
         panels[name] = _drawn_over(picture, strokes, camera)
     return panels
 
 
 def _static_panels(asset: Asset) -> dict[str, Image.Image]:
     mesh, views = PosableMesh.of(asset).mesh, {}
+    caster = Rays(mesh.triangles)
     for name, azimuth in (("front left", _AZIMUTHS[0]), ("back right", _AZIMUTHS[2])):
         camera = framed(mesh.vertices, azimuth, _ELEVATION, aspect=PANEL[0] / PANEL[1])
-        views[name] = _view(mesh, camera, float(mesh.bounds[0, 2]), None)
+        views[name] = _view(mesh, camera, float(mesh.bounds[0, 2]), None, caster)
     return views
 
 
-def _view(mesh: Mesh, camera: Camera, ground: float, paint: FloatArray | None) -> Image.Image:
+def _view(
+    mesh: Mesh, camera: Camera, ground: float, paint: FloatArray | None, caster: Rays | None
+) -> Image.Image:
     """One picture; towards its border the shadow on the ground fades, so that pictures join."""
     from PIL import Image
 
-    pixels = render(mesh, camera, *PANEL, paint=paint, ground=ground, background=BACKGROUND)
+    pixels = render(mesh, camera, *PANEL, paint=paint, ground=ground, background=BACKGROUND, caster=caster)
     inside = [np.minimum(np.arange(n) + 0.5, n - np.arange(n) - 0.5) / _FADE for n in PANEL]
     ramp = np.clip(np.minimum(inside[0][None, :], inside[1][:, None]), 0, 1)[..., None]
     plain = np.array([*BACKGROUND, 255])
     return Image.fromarray(np.rint(plain + (pixels - plain) * ramp**2 * (3 - 2 * ramp)).astype(np.uint8))
 
 
-def _camera(closed: Mesh, opened_mesh: Mesh, points: FloatArray) -> Camera:
+def _camera(closed: Rays, opened_caster: Rays, points: FloatArray) -> Camera:
     """The first of the views that shows about as much of what opening reveals as any."""
     cameras = [framed(points, a, _ELEVATION, aspect=PANEL[0] / PANEL[1]) for a in _AZIMUTHS]
-    casters = [Rays(m.triangles) for m in (closed, opened_mesh)]
-    revealed = [_revealed(casters[0], casters[1], camera) for camera in cameras]
+    revealed = [_revealed(closed, opened_caster, camera) for camera in cameras]
     return next(c for c, r in zip(cameras, revealed, strict=True) if 1.15 * r >= max(revealed))
 
 
