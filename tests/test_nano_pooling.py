@@ -67,8 +67,9 @@ def test_a_carrier_is_found_again_among_those_kept():
     drawer, knob = proposal([1], "drawer"), proposal([2], "knob", parent=0)
     found = pooled(MESH, [proposal([1], "front")], [drawer, knob], ALL_MOVE)
     assert [(p.guess.label, p.parent) for p in found] == [("front", None), ("knob", 0)]
-    made = segmentation_of(found, 48)
+    made = segmentation_of(found, 48, lambda label: "steel" if label else "wood")
     assert [(j.parent, j.child) for j in made.joints] == [("body", "front"), ("front", "knob")]
+    assert [guess.material for guess in made.parts] == ["wood", "steel", "steel"]
     assert np.array_equal(made.face_part, np.array([0, 1, 2, 0])[PIECE])
 
 

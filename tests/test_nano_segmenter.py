@@ -147,6 +147,7 @@ def test_what_the_network_says_becomes_parts_and_joints_in_metres(tmp_path, monk
     pieces = find_segments(asset.mesh).face_segment
     part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
     monkeypatch.setattr("simart_kit_plugins.nano.weights.load_network", lambda folder: Oracle(part, slides))
+    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_materials", lambda folder: {"/door": "glass"})
     options = read_options(Nano, {"model": "any", "pool": False, "votes": 1})
     found = Nano(options).segment(asset.mesh)
     assert [guess.name for guess in found.parts] == ["body", "door", "door_2"]
@@ -162,6 +163,7 @@ def test_what_the_network_says_becomes_parts_and_joints_in_metres(tmp_path, monk
         expected = 0.5 * size if slides else 0.5 * np.pi
         assert (joint.limits.lower, joint.limits.upper) == (0, pytest.approx(expected))
     assert any("taken for a cabinet" in note.text for note in found.notes)
+    assert [guess.material for guess in found.parts] == ["plastic", "glass", "glass"]
 
 
 def test_parts_that_carry_each_other_in_a_ring_hang_on_the_body():

@@ -12,10 +12,10 @@ from ..tables import Table
 class NanoConfig(Table):
     """Sizes of a `NanoNetwork`."""
 
-    channels: int = Field(default=192, gt=0, description="Channels of a piece's token.")
-    layers: int = Field(default=6, ge=1, description="Transformer layers.")
+    channels: int = Field(default=192, gt=0, le=4096, description="Channels of a piece's token.")
+    layers: int = Field(default=6, ge=1, le=64, description="Transformer layers.")
     heads: int = Field(default=8, ge=1, description="Attention heads; they divide the channels.")
-    hidden: int = Field(default=512, gt=0, description="Channels inside the perceptrons.")
+    hidden: int = Field(default=512, gt=0, le=16_384, description="Channels inside the perceptrons.")
     point_channels: int = Field(default=64, gt=0, description="Channels of a point.")
     choice_channels: int = Field(default=96, gt=0, description="Channels of a joint candidate.")
     labels: tuple[str, ...] = Field(default=(), description="What a part may be called; none of these is ''.")

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 _SAME, _LOST = 0.5, 0.3
 # What geometry finds is dropped where the network holds its faces this surely for the body's.
 _STILL = 0.1
+# Joints of one kind whose axes are closer than this are not compared [cosine].
+_ALIKE = np.cos(np.deg2rad(15.0))
 # A joint that can go less than this share of its way is stuck.
 _FREE, _STEPS = 0.25, 8
 
@@ -63,7 +65,8 @@ def pooled(
 
 def _freer(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
     """The first proposal, with the other's joint where its own is stuck and the other's is not."""
-    if _stuck(mesh, one.joint, one.faces) and not _stuck(mesh, other.joint, one.faces):
+    alike = one.joint.kind == other.joint.kind and abs(np.dot(one.joint.axis, other.joint.axis)) > _ALIKE
+    if not alike and _stuck(mesh, one.joint, one.faces) and not _stuck(mesh, other.joint, one.faces):
         return replace(one, joint=other.joint)
     return one
 

@@ -18,6 +18,9 @@ from .network import NanoNetwork
 from .truth import KINDS
 from .voting import Said, SaidParts, say, say_parts
 
+# The time that the network takes grows with the square of the pieces.
+_MANY = 256
+
 
 @dataclass(frozen=True, eq=False)
 class PredictedPart:
@@ -75,9 +78,9 @@ def predict(network: NanoNetwork, cloud: Cloud, least: float = 0.4, votes: int =
         network: on the CPU.
         cloud: of the object.
         least: parts less sure than this stay with the body.
-        votes: from how many sides it is seen, 1..8.
+        votes: from how many sides it is seen, 1..8; one of very many pieces is seen from one alone.
     """
-    said = say(network, cloud, votes)
+    said = say(network, cloud, _votes(cloud, votes))
     area = _areas(cloud)
     found = [g for g in groups(said.moves, said.together, area, least) if len(g.pieces) < cloud.count]
     parts = _parts(network, said, cloud, found)
@@ -91,7 +94,7 @@ def predict_groups(
     network: NanoNetwork, cloud: Cloud, found: Sequence[Group], votes: int = 4
 ) -> tuple[PredictedPart, ...]:
     """The joints of given groups of pieces, in their order; none holds all pieces."""
-    return _parts(network, say(network, cloud, votes), cloud, found)
+    return _parts(network, say(network, cloud, _votes(cloud, votes)), cloud, found)
 
 
 def _parts(
@@ -114,6 +117,10 @@ def _parts(
         _part(network, said, parts, row, group, own, carrier[row])
         for row, (group, (own, _)) in enumerate(zip(found, lines, strict=True))
     )
+
+
+def _votes(cloud: Cloud, wished: int) -> int:
+    return wished if cloud.count <= _MANY else 1
 
 
 def _areas(cloud: Cloud) -> FloatArray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -83,10 +83,15 @@ def of_geometry(mesh: Mesh, seed: int) -> list[Proposal]:
     ]
 
 
-def segmentation_of(proposals: Sequence[Proposal], count: int) -> Segmentation:
-    """The body as part 0 and each proposal, with its joint; of a mesh of `count` faces.
+def segmentation_of(
+    proposals: Sequence[Proposal], count: int, material: Callable[[str], str]
+) -> Segmentation:
+    """The body as part 0 and each proposal, with its joint.
 
-    Where two share a face the later one has it; each must keep one.
+    Args:
+        proposals: where two share a face the later one has it; each must keep one.
+        count: faces of the mesh.
+        material: of a part by its label; that of the body by "".
     """
     names = unique_names(["body", *(clean_name(p.guess.label or p.guess.name) for p in proposals)])
     face_part = np.zeros(count, dtype=np.int32)
@@ -97,8 +102,12 @@ def segmentation_of(proposals: Sequence[Proposal], count: int) -> Segmentation:
         joints.append(
             replace(proposal.joint, name=f"{names[number]}_joint", parent=parent, child=names[number])
         )
-    guesses = [replace(p.guess, name=name) for p, name in zip(proposals, names[1:], strict=True)]
-    return Segmentation(face_part, (PartGuess("body", label="body"), *guesses), joints=tuple(joints))
+    guesses = [
+        replace(p.guess, name=name, material=material(p.guess.label))
+        for p, name in zip(proposals, names[1:], strict=True)
+    ]
+    body = PartGuess(names[0], label="body", material=material(""))
+    return Segmentation(face_part, (body, *guesses), joints=tuple(joints))
 
 
 def overlap(mesh: Mesh, one: BoolArray, other: BoolArray) -> float:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -53,17 +55,23 @@ class Nano(Segmenter):
                 "no weights are named: add --set segmenter.options.model=RUN/model, "
                 "which `simart-kit train nano --run RUN` writes"
             )
+        from .materials import material_of
         from .meshes import mesh_cloud
         from .predicting import predict
-        from .weights import load_network
+        from .weights import load_materials, load_network
 
-        network = load_network(Path(self.options.model))
+        folder = Path(self.options.model)
+        network, known = load_network(folder), load_materials(folder)
         seen = mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(self.seed))
         said = predict(network, seen.cloud, self.options.least, self.options.votes)
-        found = _of_skin(mesh, said, seen) if seen.skin else self._of_pieces(mesh, said, seen)
+        material = partial(material_of, known, said.category)
+        split = _of_skin if seen.skin else self._of_pieces
+        found = split(mesh, said, seen, material)
         return replace(found, notes=_notes(said, seen, len(found.parts) - 1))
 
-    def _of_pieces(self, mesh: Mesh, said: Prediction, seen: MeshCloud) -> Segmentation:
+    def _of_pieces(
+        self, mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[str], str]
+    ) -> Segmentation:
         from .pooling import pooled
         from .proposals import of_geometry, of_network, segmentation_of
 
@@ -71,11 +79,11 @@ class Nano(Segmenter):
         if self.options.pool:
             moves = said.moves[seen.face_piece]
             proposals = pooled(mesh, of_geometry(mesh, self.seed), proposals, moves)
-        found = segmentation_of(proposals, len(mesh.faces))
+        found = segmentation_of(proposals, len(mesh.faces), material)
         return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
 
 
-def _of_skin(mesh: Mesh, said: Prediction, seen: MeshCloud) -> Segmentation:
+def _of_skin(mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[str], str]) -> Segmentation:
     """Parts of a skin, their ends where creases, colours and short ways suggest; large faces may be cut."""
     from .boundaries.cutting import cut
     from .boundaries.patch_parts import patch_parts, patch_size
@@ -84,14 +92,14 @@ def _of_skin(mesh: Mesh, said: Prediction, seen: MeshCloud) -> Segmentation:
     assert seen.middles is not None
     face_part = said.piece_part[seen.face_piece].astype(np.int32)
     if not said.parts:
-        found = segmentation_of([], len(mesh.faces))
+        found = segmentation_of([], len(mesh.faces), material)
         return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
     at = patch_parts(mesh, seen.middles, said.piece_part)
     done = cut(mesh, face_part, at, patch_size(mesh, seen.cloud.count))
     part = done.face_part
     if part.all():  # the body's patches are the middle of no face
         part = np.where(part == np.bincount(part).argmax(), 0, part)
-    found = segmentation_of(of_network(said, part, seen), len(part))
+    found = segmentation_of(of_network(said, part, seen), len(part), material)
     pieces = frozen_ints(seen.face_piece[done.face_source].astype(np.int32))
     return replace(found, face_segment=pieces, mesh=None if done.mesh is mesh else done.mesh)
 

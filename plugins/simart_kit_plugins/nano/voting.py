@@ -30,7 +30,7 @@ class Said:
         label: (S, L) chances of what the piece's part is called.
         category: (C,) chances of what the object is.
         size: longest side [m], and the factor by which the sides differ about it, at least 1.
-        tokens: (V, S, D) of each side, for `say_parts`.
+        tokens: (V, S', D) of each side, for `say_parts`; padded as in training.
     """
 
     moves: FloatArray
@@ -74,7 +74,7 @@ def say(network: NanoNetwork, cloud: Cloud, votes: int) -> Said:
         _mean(read.label[:, :count].softmax(2)),
         _mean(read.category.softmax(1)),
         (float(np.exp(sizes.mean())), float(np.exp(sizes.std()))),
-        read.tokens[:, :count],
+        read.tokens,
     )
 
 
@@ -86,13 +86,14 @@ def say_parts(
 
     Args:
         network: that read it.
-        tokens: (V, S, D) of `say`.
+        tokens: (V, S', D) of `say`.
         share: (P, S) how much of the part each piece is; rows sum to 1.
         numbers: (P, C, COUNT) evidence of its candidates, as seen from the first side.
         real: (P, C) which candidates exist.
     """
     kinds, rights, travels, carriers = [], [], [], []
-    given = torch.from_numpy(share), torch.from_numpy(real)
+    padded = np.pad(share, ((0, 0), (0, tokens.shape[1] - share.shape[1])))
+    given = torch.from_numpy(padded), torch.from_numpy(real)
     for own, (quarters, mirrored) in zip(tokens, VIEWS, strict=False):
         flat = turned_evidence(numbers.reshape(-1, numbers.shape[2]), quarters, mirrored)
         seen = torch.from_numpy(flat.reshape(numbers.shape).astype(np.float32))

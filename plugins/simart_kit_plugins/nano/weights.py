@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from textwrap import shorten
 from typing import Literal
 
+import torch
 from pydantic import Field, ValidationError
 
 from simart_kit.errors import BadInputError, OutputError
 
-from ..tables import Table
+from ..tables import Table, told
 from .config import NanoConfig
 from .network import NanoNetwork
 
 CONFIG_FILE, WEIGHTS_FILE = "config.json", "model.safetensors"
+_AGAIN = "give a folder that `train nano` wrote, or copy it again"
 
 
 class _ConfigFile(Table):
@@ -22,10 +26,16 @@ class _ConfigFile(Table):
     schema_version: Literal[1] = Field(alias="schema")
     model: Literal["simart-nano"]
     config: NanoConfig
+    materials: dict[str, str] = Field(default={}, description="See `materials.usual_materials`.")
 
 
-def save_network(network: NanoNetwork, folder: Path) -> None:
+def save_network(network: NanoNetwork, folder: Path, materials: Mapping[str, str] | None = None) -> None:
     """Write a network; the same weights give the same bytes.
+
+    Args:
+        network: any device.
+        folder: made where there is none; its files are replaced.
+        materials: what parts are made of, see `usual_materials`.
 
     Raises:
         OutputError: the folder cannot be written.
@@ -33,7 +43,8 @@ def save_network(network: NanoNetwork, folder: Path) -> None:
     from safetensors.torch import save_file
 
     tensors = {name: t.detach().cpu().half().contiguous() for name, t in network.state_dict().items()}
-    file = _ConfigFile(schema=1, model="simart-nano", config=network.config)
+    known = dict(materials or {})
+    file = _ConfigFile(schema=1, model="simart-nano", config=network.config, materials=known)
     partial = folder / f"{WEIGHTS_FILE}.partial"
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -49,22 +60,52 @@ def load_network(folder: Path) -> NanoNetwork:
     """Read a folder that `save_network` wrote, onto the CPU, in float32.
 
     Raises:
-        BadInputError: a file is missing or damaged, or the weights are of another config.
+        BadInputError: a file is missing or damaged, the weights are of another config, or not all are finite.
     """
+    config, tensors = _config(folder / CONFIG_FILE).config, _tensors(folder / WEIGHTS_FILE)
+    try:
+        network = NanoNetwork(config)
+        network.load_state_dict(tensors)
+    except RuntimeError as error:
+        first = str(error).splitlines()[:2][-1]  # after a headline
+        raise BadInputError(
+            f"{folder / WEIGHTS_FILE} is not of the network in {CONFIG_FILE} beside it: they are "
+            f"of different ones ({shorten(first, 160)}): copy both files from one folder"
+        ) from error
+    return network.eval()
+
+
+def load_materials(folder: Path) -> dict[str, str]:
+    """What parts are made of, as it was saved with a network; raises BadInputError as `load_network` does."""
+    return _config(folder / CONFIG_FILE).materials
+
+
+def _config(path: Path) -> _ConfigFile:
+    try:
+        return _ConfigFile.model_validate_json(path.read_bytes())
+    except OSError as error:
+        raise _unread(path, error) from error
+    except ValidationError as error:
+        raise BadInputError(f"{path} holds no simart-nano ({told(error)}): {_AGAIN}") from error
+
+
+def _tensors(path: Path) -> dict[str, torch.Tensor]:
+    """Float32 copies of what a file holds, by name."""
     from safetensors import SafetensorError
     from safetensors.torch import load_file
 
     try:
-        file = _ConfigFile.model_validate_json((folder / CONFIG_FILE).read_bytes())
-        network = NanoNetwork(file.config)
-        network.load_state_dict({name: t.float() for name, t in load_file(folder / WEIGHTS_FILE).items()})
+        stored = load_file(path)
     except OSError as error:
-        raise BadInputError(
-            f"cannot read {folder}: {error.strerror or error}: give a model's folder"
-        ) from error
-    except (ValidationError, SafetensorError, RuntimeError) as error:
-        told = str(error).splitlines()[0]
-        raise BadInputError(
-            f"{folder} holds no simart-nano, or its two files are of different ones ({told})"
-        ) from error
-    return network.eval()
+        raise _unread(path, error) from error
+    except SafetensorError as error:
+        raise BadInputError(f"{path} is damaged, it holds no simart-nano ({error}): {_AGAIN}") from error
+    wrong = sorted(name for name, t in stored.items() if not (t.is_floating_point() and t.isfinite().all()))
+    if wrong:
+        raise BadInputError(f"{path}: not all numbers of {wrong[0]} are finite: {_AGAIN}")
+    return {name: t.float() for name, t in stored.items()}
+
+
+def _unread(path: Path, error: OSError) -> BadInputError:
+    reason = "no such file" if isinstance(error, FileNotFoundError) else error.strerror or error
+    return BadInputError(f"cannot read {path}: {reason}: {_AGAIN}")

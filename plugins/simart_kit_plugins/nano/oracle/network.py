@@ -8,6 +8,7 @@ from pathlib import Path
 from simart_kit import Segmenter
 from simart_kit.arrays import vec3
 from simart_kit.assemble import assemble
+from simart_kit.asset import clean_name
 from simart_kit.bench.articulation import LinkJoint
 from simart_kit.bench.formats.output_folder import in_asset_frame
 from simart_kit.recipe import read_options
@@ -52,7 +53,8 @@ def grouping_step(case: Case, model: Model) -> Judged:
 def whole_step(case: Case, model: Model) -> Judged:
     """Everything as the segmenter says it."""
     said = model.segmenter.segment(case.mesh)
-    asset = assemble(case.truth.name, case.mesh, said, said.joints or (), case.asset_from_source)
+    name = clean_name(case.truth.name, "asset")
+    asset = assemble(name, case.mesh, said, said.joints or (), case.asset_from_source)
     return judge(case.truth, in_asset_frame(asset).transformed(cloud_from_asset(case.seen)))
 
 
