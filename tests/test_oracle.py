@@ -219,7 +219,7 @@ def test_what_cannot_be_done_is_one_line(tmp_path, capfd):
         ([str(tmp_path / "none")], "no such folder"),
         ([str(data), "--mesh", "fused.glb"], "variant"),
         ([str(data), "--out", str(tmp_path / "no" / "x.json")], "its folder does not exist"),
-        ([str(data), "--model", str(tmp_path)], "model"),
+        ([str(data), "--model", str(tmp_path)], "config.json: no such file"),
     ):
         assert run(["bench", "oracle", *words]) == 2
         err = capfd.readouterr().err

@@ -65,7 +65,7 @@ def pooled(
 
 def _freer(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
     """The first proposal, with the other's joint where its own is stuck and the other's is not."""
-    alike = one.joint.kind == other.joint.kind and abs(np.dot(one.joint.axis, other.joint.axis)) > _ALIKE
+    alike = one.joint.kind == other.joint.kind and np.dot(one.joint.axis, other.joint.axis) > _ALIKE
     if not alike and _stuck(mesh, one.joint, one.faces) and not _stuck(mesh, other.joint, one.faces):
         return replace(one, joint=other.joint)
     return one
