@@ -1,4 +1,4 @@
-"""Joint predictor `hints`: takes the joints of a model that predicts parts and joints at once."""
+"""Joint predictor `hints`: the joints of a segmenter that predicts parts and joints at once."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ if TYPE_CHECKING:
 
 
 class Hints(JointPredictor):
-    """Passes the segmenter's own joint hints on."""
+    """Passes the segmenter's own joint hints on; where it has none, joints are those of `geometric`."""
 
     name = "hints"
 
     def predict(self, mesh: Mesh, segmentation: Segmentation) -> tuple[Joint, ...]:
-        """The hints; raises ValueError when the segmenter gave none."""
-        if segmentation.joints is None:
-            raise ValueError(
-                "the segmenter gave no joint hints: choose another joint predictor, such as geometric"
-            )
-        return segmentation.joints
+        """The hints, which may be none at all; or what geometry says of a segmenter's bare parts."""
+        if segmentation.joints is not None:
+            return segmentation.joints
+        from .geometric.predictor import GeometricJoints
+
+        return GeometricJoints(seed=self.seed).predict(mesh, segmentation)
 
 
 @hookimpl
