@@ -6,13 +6,13 @@ import torch
 from simart_kit_plugins.nano import predicting
 from simart_kit_plugins.nano.config import NanoConfig
 from simart_kit_plugins.nano.grouping import groups, piece_parts
+from simart_kit_plugins.nano.knowledge import Knowledge
 from simart_kit_plugins.nano.meshes import MOST_PIECES, mesh_cloud
 from simart_kit_plugins.nano.network import NanoNetwork, PartReading, Reading
 from simart_kit_plugins.nano.segmenter import Nano
 from simart_kit_plugins.nano.truth import KINDS
 from simart_kit_plugins.nano.weights import load_network, save_network
 
-from simart_kit.cli.main import run
 from simart_kit.errors import BadInputError
 from simart_kit.mesh import Mesh
 from simart_kit.recipe import read_options
@@ -23,6 +23,7 @@ from simart_kit.testing.meshes import boxes_mesh, cabinet_asset
 TINY = {"channels": 16, "layers": 1, "heads": 2, "hidden": 16, "point_channels": 8}
 CONFIG = NanoConfig(**TINY, labels=("door", "drawer"), categories=("cabinet",))
 SURE = 12.0
+KNOWN = Knowledge(materials={"/door": "glass"})
 
 
 class Oracle(NanoNetwork):
@@ -147,7 +148,7 @@ def test_what_the_network_says_becomes_parts_and_joints_in_metres(tmp_path, monk
     pieces = find_segments(asset.mesh).face_segment
     part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
     monkeypatch.setattr("simart_kit_plugins.nano.weights.load_network", lambda folder: Oracle(part, slides))
-    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_materials", lambda folder: {"/door": "glass"})
+    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_knowledge", lambda folder: KNOWN)
     options = read_options(Nano, {"model": "any", "pool": False, "votes": 1})
     found = Nano(options).segment(asset.mesh)
     assert [guess.name for guess in found.parts] == ["body", "door", "door_2"]
@@ -164,6 +165,13 @@ def test_what_the_network_says_becomes_parts_and_joints_in_metres(tmp_path, monk
         assert (joint.limits.lower, joint.limits.upper) == (0, pytest.approx(expected))
     assert any("taken for a cabinet" in note.text for note in found.notes)
     assert [guess.material for guess in found.parts] == ["plastic", "glass", "glass"]
+    chance, points = found.evidence
+    moving = np.unique(asset.mesh.faces[asset.face_part > 0])
+    still = np.unique(asset.mesh.faces[asset.face_part == 0])
+    assert chance.values[moving].min() > 0.99
+    assert chance.values[still].max() < 0.01
+    assert points.names[0] == "body"
+    assert len(points.names) == 3
 
 
 def test_parts_that_carry_each_other_in_a_ring_hang_on_the_body():
@@ -209,13 +217,3 @@ def test_weights_that_do_not_fit_are_refused(tmp_path, damage, told):
     damage(tmp_path / "model")
     with pytest.raises(BadInputError, match=told):
         load_network(tmp_path / "model")
-
-
-def test_without_weights_the_command_says_how_to_get_some(tmp_path, monkeypatch, capfd):
-    monkeypatch.chdir(tmp_path)
-    mesh = boxes_mesh([((0, 0, 0), (1, 1, 1)), ((2, 0, 0), (3, 1, 1))])
-    lines = [f"v {x} {y} {z}" for x, y, z in mesh.vertices]
-    lines += ["f " + " ".join(str(i + 1) for i in face) for face in mesh.faces]
-    (tmp_path / "two.obj").write_text("\n".join(lines))
-    assert run(["convert", "two.obj", "--recipe", "nano"]) == 1
-    assert "--set segmenter.options.model=RUN/model" in capfd.readouterr().err

@@ -17,8 +17,8 @@ from .cloud import Cloud, Samples, sample_evenly, sample_pieces
 from .superfaces import nearest_superface, superfaces
 
 # Points of a cloud, and pieces at most: of solids that lie apart, and of skins that have to be cut.
-POINTS, MOST_PIECES, SUPERFACES = 3072, 384, 192
-_SKIN_POINTS = 12_288
+POINTS, MOST_PIECES, SUPERFACES = 3072, 384, 144
+_SKIN_POINTS = 9216
 
 
 @dataclass(frozen=True, eq=False)

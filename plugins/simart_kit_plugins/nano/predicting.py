@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,7 +59,7 @@ class Prediction:
         piece_part: (S,) part of each piece, from 1; 0 is the body.
         moves: (S,) chance of each piece to be of a moving part.
         category: what it is; empty where no known one fits.
-        category_score: 0..1.
+        categories: chance of each known category.
         size: longest side [m], and the factor by which opinions differ about it, at least 1.
     """
 
@@ -67,7 +67,7 @@ class Prediction:
     piece_part: IntArray
     moves: FloatArray
     category: str
-    category_score: float
+    categories: Mapping[str, float]
     size: tuple[float, float]
 
 
@@ -84,10 +84,11 @@ def predict(network: NanoNetwork, cloud: Cloud, least: float = 0.4, votes: int =
     area = _areas(cloud)
     found = [g for g in groups(said.moves, said.together, area, least) if len(g.pieces) < cloud.count]
     parts = _parts(network, said, cloud, found)
+    names = network.config.categories
     best = int(said.category.argmax())
-    name = network.config.categories[best - 1] if best else ""
-    part, chance = piece_parts(found, cloud.count), float(said.category[best])
-    return Prediction(parts, part, said.moves, name, chance, said.size)
+    name = names[best - 1] if best else ""
+    chances = dict(zip(names, said.category[1:].tolist(), strict=True))
+    return Prediction(parts, piece_parts(found, cloud.count), said.moves, name, chances, said.size)
 
 
 def predict_groups(

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from .meshes import MeshCloud
     from .predicting import Prediction
 
+_SUFFIX = {"revolute": "hinge", "prismatic": "slide", "continuous": "spin"}
+
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
@@ -93,14 +95,15 @@ def segmentation_of(
         count: faces of the mesh.
         material: of a part by its label; that of the body by "".
     """
-    names = unique_names(["body", *(clean_name(p.guess.label or p.guess.name) for p in proposals)])
+    names = unique_names(["body", *(clean_name(p.guess.name) for p in proposals)])
     face_part = np.zeros(count, dtype=np.int32)
     joints = []
     for number, proposal in enumerate(proposals, start=1):
         face_part[proposal.faces] = number
+        suffix = _SUFFIX.get(proposal.joint.kind, "joint")
         parent = names[0 if proposal.parent is None else proposal.parent + 1]
         joints.append(
-            replace(proposal.joint, name=f"{names[number]}_joint", parent=parent, child=names[number])
+            replace(proposal.joint, name=f"{names[number]}_{suffix}", parent=parent, child=names[number])
         )
     guesses = [
         replace(p.guess, name=name, material=material(p.guess.label))

@@ -14,7 +14,6 @@ from pydantic import Field
 import simart_kit
 from simart_kit import Note, Segmentation, Segmenter
 from simart_kit.arrays import frozen_ints
-from simart_kit.errors import BadInputError
 from simart_kit.segments import find_segments
 
 if TYPE_CHECKING:
@@ -23,6 +22,11 @@ if TYPE_CHECKING:
     from .meshes import MeshCloud
     from .predicting import Prediction
     from .proposals import Proposal
+
+
+_SKIN = "the surface is one fused skin, in which parts are often missed or wrong: look at it"
+# Nothing moves from this chance on that the object is of a category of which nothing does.
+_STILL = 0.8
 
 
 class Nano(Segmenter):
@@ -34,10 +38,10 @@ class Nano(Segmenter):
         """Which weights, and how sure they have to be."""
 
         model: str = Field(
-            default="", description="Folder of the weights, such as `train nano` writes; needed."
+            default="", description="Folder of the weights, such as `train nano` writes; the shipped ones."
         )
         least: float = Field(
-            default=0.4, ge=0, le=1, description="Parts less sure than this stay with the body."
+            default=0.7, ge=0, le=1, description="Parts less sure than this stay with the body."
         )
         votes: int = Field(default=4, ge=1, le=8, description="From how many sides it is looked at.")
         pool: bool = Field(default=True, description="Add what `geometric` finds, and keep what can move.")
@@ -48,26 +52,26 @@ class Nano(Segmenter):
         """The body as part 0, then each part that moves, with its joint as a hint.
 
         Raises:
-            BadInputError: no weights are named, or they cannot be read.
+            BadInputError: the weights cannot be read.
         """
-        if not self.options.model:
-            raise BadInputError(
-                "no weights are named: add --set segmenter.options.model=RUN/model, "
-                "which `simart-kit train nano --run RUN` writes"
-            )
-        from .materials import material_of
         from .meshes import mesh_cloud
         from .predicting import predict
-        from .weights import load_materials, load_network
+        from .showing import evidence
+        from .weights import load_knowledge, load_network, shipped_folder
 
-        folder = Path(self.options.model)
-        network, known = load_network(folder), load_materials(folder)
+        folder = Path(self.options.model) if self.options.model else shipped_folder()
+        network, known = load_network(folder), load_knowledge(folder)
         seen = mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(self.seed))
         said = predict(network, seen.cloud, self.options.least, self.options.votes)
-        material = partial(material_of, known, said.category)
-        split = _of_skin if seen.skin else self._of_pieces
-        found = split(mesh, said, seen, material)
-        return replace(found, notes=_notes(said, seen, len(found.parts) - 1))
+        material = partial(known.material, said.category)
+        still = sum(said.categories[name] for name in known.still)
+        if still >= _STILL:
+            found = _static(mesh, seen, material)
+        else:
+            found = (_of_skin if seen.skin else self._of_pieces)(mesh, said, seen, material)
+        assert found.face_segment is not None
+        shown = evidence(found.mesh_of(mesh), found.face_segment, said, seen)
+        return replace(found, notes=_notes(said, seen, still, len(found.parts) - 1), evidence=shown)
 
     def _of_pieces(
         self, mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[str], str]
@@ -83,6 +87,13 @@ class Nano(Segmenter):
         return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
 
 
+def _static(mesh: Mesh, seen: MeshCloud, material: Callable[[str], str]) -> Segmentation:
+    from .proposals import segmentation_of
+
+    found = segmentation_of([], len(mesh.faces), material)
+    return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
+
+
 def _of_skin(mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[str], str]) -> Segmentation:
     """Parts of a skin, their ends where creases, colours and short ways suggest; large faces may be cut."""
     from .boundaries.cutting import cut
@@ -92,8 +103,7 @@ def _of_skin(mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[
     assert seen.middles is not None
     face_part = said.piece_part[seen.face_piece].astype(np.int32)
     if not said.parts:
-        found = segmentation_of([], len(mesh.faces), material)
-        return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
+        return _static(mesh, seen, material)
     at = patch_parts(mesh, seen.middles, said.piece_part)
     done = cut(mesh, face_part, at, patch_size(mesh, seen.cloud.count))
     part = done.face_part
@@ -104,13 +114,17 @@ def _of_skin(mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[
     return replace(found, face_segment=pieces, mesh=None if done.mesh is mesh else done.mesh)
 
 
-def _notes(said: Prediction, seen: MeshCloud, parts: int) -> tuple[Note, ...]:
+def _notes(said: Prediction, seen: MeshCloud, still: float, parts: int) -> tuple[Note, ...]:
     kind = "patches of one skin" if seen.skin else "pieces that lie apart"
-    what = f"taken for a {said.category} ({said.category_score:.2f})" if said.category else "of no known kind"
+    known = said.category and f"taken for a {said.category} ({said.categories[said.category]:.2f})"
+    what = known or "of no known kind"
+    if still >= _STILL:
+        what += f", and nothing moves of such objects ({still:.2f} sure)"
     size, factor = said.size
     return (
         Note(
             "segment", "info", f"{seen.cloud.count} {kind}; {what}, about {size:.2g} m (/ or x {factor:.2f})"
         ),
         Note("segment", "info", f"{parts} moving parts"),
+        *([Note("segment", "warning", _SKIN)] if seen.skin else []),
     )

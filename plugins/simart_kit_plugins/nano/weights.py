@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from importlib.resources import files
 from pathlib import Path
 from textwrap import shorten
 from typing import Literal
@@ -14,6 +14,7 @@ from simart_kit.errors import BadInputError, OutputError
 
 from ..tables import Table, told
 from .config import NanoConfig
+from .knowledge import Knowledge
 from .network import NanoNetwork
 
 CONFIG_FILE, WEIGHTS_FILE = "config.json", "model.safetensors"
@@ -26,16 +27,21 @@ class _ConfigFile(Table):
     schema_version: Literal[1] = Field(alias="schema")
     model: Literal["simart-nano"]
     config: NanoConfig
-    materials: dict[str, str] = Field(default={}, description="See `materials.usual_materials`.")
+    knowledge: Knowledge = Knowledge()
 
 
-def save_network(network: NanoNetwork, folder: Path, materials: Mapping[str, str] | None = None) -> None:
+def shipped_folder() -> Path:
+    """The folder of the weights that come with the package."""
+    return Path(str(files(__package__))) / "model"
+
+
+def save_network(network: NanoNetwork, folder: Path, known: Knowledge | None = None) -> None:
     """Write a network; the same weights give the same bytes.
 
     Args:
         network: any device.
         folder: made where there is none; its files are replaced.
-        materials: what parts are made of, see `usual_materials`.
+        known: what goes with it.
 
     Raises:
         OutputError: the folder cannot be written.
@@ -43,8 +49,8 @@ def save_network(network: NanoNetwork, folder: Path, materials: Mapping[str, str
     from safetensors.torch import save_file
 
     tensors = {name: t.detach().cpu().half().contiguous() for name, t in network.state_dict().items()}
-    known = dict(materials or {})
-    file = _ConfigFile(schema=1, model="simart-nano", config=network.config, materials=known)
+    known = known or Knowledge()
+    file = _ConfigFile(schema=1, model="simart-nano", config=network.config, knowledge=known)
     partial = folder / f"{WEIGHTS_FILE}.partial"
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -75,9 +81,9 @@ def load_network(folder: Path) -> NanoNetwork:
     return network.eval()
 
 
-def load_materials(folder: Path) -> dict[str, str]:
-    """What parts are made of, as it was saved with a network; raises BadInputError as `load_network` does."""
-    return _config(folder / CONFIG_FILE).materials
+def load_knowledge(folder: Path) -> Knowledge:
+    """What was saved with a network; raises BadInputError as `load_network` does."""
+    return _config(folder / CONFIG_FILE).knowledge
 
 
 def _config(path: Path) -> _ConfigFile:

@@ -111,7 +111,7 @@ def _performed(
 ) -> dict[str, NanoScore]:
     from simart_kit.output import claimed
 
-    from ..materials import usual_materials
+    from ..knowledge import counted
     from ..training import pool
     from ..training.loop import train, with_names
     from ..training.scores import score
@@ -127,7 +127,7 @@ def _performed(
         examples = pool.read(files[pool.TRAIN])
         plan = with_names(plan, examples)
         network = _mean(plan, run) if evaluate else train(plan, examples, run, _Printer(plan, quiet))
-        save_network(network, run / "model", usual_materials(plan.network.categories, plan.seed))
+        save_network(network, run / "model", counted(plan.network.categories, plan.seed))
     judged = {"categories trained on": pool.SEEN, "unseen categories": pool.UNSEEN}
     return {name: score(network, pool.read(files[use])) for name, use in judged.items() if files[use]}
 

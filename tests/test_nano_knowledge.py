@@ -1,0 +1,35 @@
+"""What parts are made of, by what they are called and what the object is, and what never moves."""
+
+from simart_kit_plugins.nano.config import NanoConfig
+from simart_kit_plugins.nano.knowledge import Knowledge, counted
+from simart_kit_plugins.nano.network import NanoNetwork
+from simart_kit_plugins.nano.weights import load_knowledge, save_network
+
+from simart_kit.physics import MATERIALS
+
+
+def test_a_part_is_made_of_what_such_parts_of_such_objects_are():
+    usual = {"fridge/door": "steel", "/door": "wood", "fridge/": "plastic", "/": "mdf"}
+    known = Knowledge(materials=usual)
+    assert known.material("fridge", "door") == "steel"
+    assert known.material("wardrobe", "door") == "wood"
+    assert known.material("fridge", "ice tray") == "plastic"
+    assert known.material("wardrobe", "flap") == "mdf"
+    assert Knowledge().material("wardrobe", "flap") == "plastic"
+
+
+def test_knowledge_is_counted_among_generated_objects():
+    known = counted(["washing_machine", "bed"], seed=3)
+    assert set(known.materials.values()) <= set(MATERIALS)
+    assert {"washing_machine/", "bed/", "/"} <= set(known.materials)
+    assert known.still == ("bed",)
+    assert known == counted(["washing_machine", "bed"], seed=3)
+
+
+def test_knowledge_is_kept_beside_the_weights(tmp_path):
+    config = NanoConfig(channels=16, layers=1, heads=2, hidden=16, point_channels=8)
+    known = Knowledge(materials={"/door": "glass"}, still=("bed",))
+    save_network(NanoNetwork(config, 0), tmp_path / "a", known)
+    save_network(NanoNetwork(config, 0), tmp_path / "b")
+    assert load_knowledge(tmp_path / "a") == known
+    assert load_knowledge(tmp_path / "b") == Knowledge()
