@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import torch
 from simart_kit_plugins.nano import predicting
+from simart_kit_plugins.nano.candidates import EDGE, SLIDE, Candidates, alike
 from simart_kit_plugins.nano.config import NanoConfig
 from simart_kit_plugins.nano.grouping import groups, piece_parts
 from simart_kit_plugins.nano.knowledge import Knowledge
@@ -70,7 +71,7 @@ def test_groups_are_the_blocks_of_a_matrix_of_chances_the_surest_first():
     found = groups(moves, together, np.ones(8), least=0.3)
     assert [group.pieces.tolist() for group in found] == [[2, 3], [4, 5, 6]]
     assert found[0].score == pytest.approx(0.95 * 0.9)
-    assert piece_parts(found, 8).tolist() == [0, 0, 1, 1, 2, 2, 2, 0]
+    assert piece_parts([group.pieces for group in found], 8).tolist() == [0, 0, 1, 1, 2, 2, 2, 0]
     assert [group.pieces.tolist() for group in groups(moves, together, np.ones(8), least=0.8)] == [[2, 3]]
     assert groups(np.zeros(8), together, np.ones(8), least=0.0) == []
 
@@ -149,7 +150,7 @@ def test_what_the_network_says_becomes_parts_and_joints_in_metres(tmp_path, monk
     part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
     monkeypatch.setattr("simart_kit_plugins.nano.weights.load_network", lambda folder: Oracle(part, slides))
     monkeypatch.setattr("simart_kit_plugins.nano.weights.load_knowledge", lambda folder: KNOWN)
-    options = read_options(Nano, {"model": "any", "pool": False, "votes": 1})
+    options = read_options(Nano, {"model": "any", "pool": False, "votes": 1, "least": 0.0})
     found = Nano(options).segment(asset.mesh)
     assert [guess.name for guess in found.parts] == ["body", "door", "door_2"]
     # Parts are numbered by how sure the network is; which is which, their faces tell.
@@ -217,3 +218,26 @@ def test_weights_that_do_not_fit_are_refused(tmp_path, damage, told):
     damage(tmp_path / "model")
     with pytest.raises(BadInputError, match=told):
         load_network(tmp_path / "model")
+
+
+def test_parts_that_are_not_sure_enough_stay_with_the_body_and_are_told(monkeypatch):
+    asset = cabinet_asset()
+    pieces = find_segments(asset.mesh).face_segment
+    part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
+    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_network", lambda folder: Oracle(part, False))
+    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_knowledge", lambda folder: KNOWN)
+    found = Nano(read_options(Nano, {"model": "any", "pool": False, "least": 0.9})).segment(asset.mesh)
+    assert found.face_part.max() == 0
+    assert found.joints == ()
+    told = [note.text for note in found.notes if "not sure enough" in note.text]
+    assert len(told) == 2
+    assert all(text.startswith("a door that the network took for revolute") for text in told)
+
+
+def test_candidates_that_say_the_same_are_alike():
+    axis = np.array([[0, 0, 1.0], [0, 0, -1], [0, 0, 1], [1, 0, 0], [0, 0, 1]])
+    origin = np.array([[0, 0, 0], [0.01, 0, 0.7], [0.1, 0, 0], [0, 0, 0], [0, 0, 0]])
+    found = Candidates(axis, origin, np.array([EDGE, EDGE, EDGE, EDGE, SLIDE]), np.zeros(5, int), np.zeros(5))
+    expected = np.eye(5, dtype=bool)
+    expected[0, 1] = expected[1, 0] = True
+    assert np.array_equal(alike(found), expected)

@@ -10,7 +10,7 @@ from itertools import product
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray, IntArray, units
+from simart_kit.arrays import BoolArray, FloatArray, IntArray, units
 
 SLIDE, EDGE, MIDDLE, CENTER, CIRCLE, CONTACT = range(6)
 SOURCES = ("slide", "edge", "middle", "center", "circle", "contact")
@@ -18,6 +18,8 @@ SOURCES = ("slide", "edge", "middle", "center", "circle", "contact")
 _TRIM = 0.02
 # Frames whose axes all lie closer to another's give nothing new [cosine].
 _ALIKE = np.cos(np.deg2rad(4.0))
+# Lines nearer than this are one [sides of the object].
+_NEAR = 0.02
 # Lines through a box's section: its corners, the middles of its sides, and its center.
 _SPOTS = np.array(list(product((-1.0, 0.0, 1.0), repeat=2)))
 _SPOT_SOURCE = np.array([EDGE, MIDDLE, EDGE, MIDDLE, CENTER, MIDDLE, EDGE, MIDDLE, EDGE])
@@ -60,6 +62,16 @@ def candidates(points: FloatArray, normals: FloatArray, touching: FloatArray) ->
     rows += _of_contact(touching)
     axis, origin, source, frame, misfit = zip(*rows, strict=True)
     return Candidates(np.stack(axis), np.stack(origin), np.array(source), np.array(frame), np.array(misfit))
+
+
+def alike(found: Candidates) -> BoolArray:
+    """(C, C) whether two candidates are nearly one slide, or turns about nearly one line."""
+    slide = found.source == SLIDE
+    parallel = np.abs(found.axis @ found.axis.T) > _ALIKE
+    apart = found.origin[None] - found.origin[:, None]
+    off = np.linalg.norm(np.cross(apart, found.axis[:, None]), axis=2)
+    both, neither = slide[:, None] & slide[None], ~slide[:, None] & ~slide[None]
+    return np.asarray(parallel & (both | (neither & (off < _NEAR))))
 
 
 def _frames(points: FloatArray, normals: FloatArray) -> list[FloatArray]:

@@ -69,9 +69,9 @@ def _members(seed: int, left: np.ndarray, together: FloatArray, area: FloatArray
     return np.asarray(members, dtype=np.int64)
 
 
-def piece_parts(found: Sequence[Group], count: int) -> IntArray:
-    """(count,) part of each piece: 0 for the body, then the groups in their order."""
+def piece_parts(found: Sequence[IntArray], count: int) -> IntArray:
+    """(count,) part of each piece: 0 for the body, then the parts of these pieces in their order."""
     part = np.zeros(count, dtype=np.int64)
-    for number, group in enumerate(found, start=1):
-        part[group.pieces] = number
+    for number, pieces in enumerate(found, start=1):
+        part[pieces] = number
     return part

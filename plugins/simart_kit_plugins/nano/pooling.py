@@ -20,29 +20,23 @@ if TYPE_CHECKING:
 
 # Two proposals are of one part from this overlap on; one that loses more than this share is dropped.
 _SAME, _LOST = 0.5, 0.3
-# What geometry finds is dropped where the network holds its faces this surely for the body's.
-_STILL = 0.1
 # Joints of one kind whose axes are closer than this are not compared [cosine].
 _ALIKE = np.cos(np.deg2rad(15.0))
 # A joint that can go less than this share of its way is stuck.
 _FREE, _STEPS = 0.25, 8
 
 
-def pooled(
-    mesh: Mesh, geometry: Sequence[Proposal], network: Sequence[Proposal], moves: FloatArray
-) -> list[Proposal]:
+def pooled(mesh: Mesh, geometry: Sequence[Proposal], network: Sequence[Proposal]) -> list[Proposal]:
     """What both find once, with the joint that is free to move; then what either finds alone.
 
     Args:
         mesh: of the faces.
         geometry: proposals of geometry alone: its borders and lines are the more exact ones.
         network: proposals of the network, the surest first.
-        moves: (F,) chance that a face moves, by the network.
     """
     areas = mesh.face_areas
-    trusted = [k for k, p in enumerate(geometry) if _mean(moves, p.faces, areas) >= _STILL]
-    kept = [geometry[k] for k in trusted]
-    place = {("geometry", k): row for row, k in enumerate(trusted)}
+    kept = list(geometry)
+    place = {("geometry", k): k for k in range(len(geometry))}
     taken = np.zeros(len(areas), dtype=np.bool_)
     for proposal in kept:
         taken |= proposal.faces
@@ -85,10 +79,6 @@ def _stuck(mesh: Mesh, joint: Joint, faces: BoolArray) -> bool:
     ends = (joint.limits.lower, joint.limits.upper)
     free = sum(abs(paths.free(motion, end, _STEPS)) for end in ends if end)
     return free < _FREE * (ends[1] - ends[0])
-
-
-def _mean(values: FloatArray, faces: BoolArray, areas: FloatArray) -> float:
-    return float(np.average(values[faces], weights=areas[faces] + 1e-12))
 
 
 def _carried(

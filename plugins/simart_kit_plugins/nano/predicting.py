@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from simart_kit.arrays import FloatArray, IntArray
 from simart_kit.asset import JointKind
 
-from .candidates import SLIDE, Candidates, candidates
+from .candidates import SLIDE, Candidates, alike, candidates
 from .cloud import Cloud
 from .evidence import COUNT, TOUCHING, evidence
 from .grouping import Group, groups, piece_parts
@@ -20,6 +20,8 @@ from .voting import Said, SaidParts, say, say_parts
 
 # The time that the network takes grows with the square of the pieces.
 _MANY = 256
+# Less sure groups of pieces are not looked at.
+_WORTH = 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +37,7 @@ class PredictedPart:
         origin: (3,) a point on it.
         lower, upper: limits [rad | sides of the object]; 0 where the kind has none.
         parent: number of the part that carries it, from 1; 0 is the body.
-        confidence: chance of kind and axis together; 0..1.
+        confidence: chance of kind and line together; 0..1.
     """
 
     pieces: IntArray
@@ -49,13 +51,19 @@ class PredictedPart:
     parent: int
     confidence: float
 
+    @property
+    def certainty(self) -> float:
+        """How sure it is that this moves, and moves so; 0..1."""
+        return self.score * self.confidence
+
 
 @dataclass(frozen=True, eq=False)
 class Prediction:
     """What the network says of an object.
 
     Attributes:
-        parts: the surest first.
+        parts: those sure enough.
+        doubtful: those that are not; their pieces stay with the body.
         piece_part: (S,) part of each piece, from 1; 0 is the body.
         moves: (S,) chance of each piece to be of a moving part.
         category: what it is; empty where no known one fits.
@@ -64,6 +72,7 @@ class Prediction:
     """
 
     parts: tuple[PredictedPart, ...]
+    doubtful: tuple[PredictedPart, ...]
     piece_part: IntArray
     moves: FloatArray
     category: str
@@ -77,18 +86,28 @@ def predict(network: NanoNetwork, cloud: Cloud, least: float = 0.4, votes: int =
     Args:
         network: on the CPU.
         cloud: of the object.
-        least: parts less sure than this stay with the body.
+        least: parts less sure than this, of moving as one and of how, stay with the body.
         votes: from how many sides it is seen, 1..8; one of very many pieces is seen from one alone.
     """
     said = say(network, cloud, _votes(cloud, votes))
     area = _areas(cloud)
-    found = [g for g in groups(said.moves, said.together, area, least) if len(g.pieces) < cloud.count]
-    parts = _parts(network, said, cloud, found)
+    found = [g for g in groups(said.moves, said.together, area, _WORTH) if len(g.pieces) < cloud.count]
+    every = _parts(network, said, cloud, found)
+    parts = _sure(every, least)
     names = network.config.categories
     best = int(said.category.argmax())
     name = names[best - 1] if best else ""
     chances = dict(zip(names, said.category[1:].tolist(), strict=True))
-    return Prediction(parts, piece_parts(found, cloud.count), said.moves, name, chances, said.size)
+    doubtful = tuple(part for part in every if part.certainty < least)
+    piece_part = piece_parts([part.pieces for part in parts], cloud.count)
+    return Prediction(parts, doubtful, piece_part, said.moves, name, chances, said.size)
+
+
+def _sure(every: Sequence[PredictedPart], least: float) -> tuple[PredictedPart, ...]:
+    """The parts that are sure enough; one whose carrier is not hangs on the body."""
+    kept = [number for number, part in enumerate(every, start=1) if part.certainty >= least]
+    place = {number: k for k, number in enumerate(kept, start=1)}
+    return tuple(replace(every[n - 1], parent=place.get(every[n - 1].parent, 0)) for n in kept)
 
 
 def predict_groups(
@@ -165,7 +184,9 @@ def _part(
     kind = KINDS[int(kinds.argmax())]
     slide = kind == "prismatic"
     chance = parts.right[row, : len(own)] * ((own.source == SLIDE) == slide)
-    best = int(chance.argmax())
+    # Several candidates may say the same: their chances add up.
+    together = chance @ alike(own) / max(chance.sum(), 1e-9)
+    best = int((chance * together).argmax())
     lower, upper = parts.travel[row, best].tolist()
     axis = own.axis[best]
     if -lower > upper:  # positive opens
@@ -182,5 +203,5 @@ def _part(
         min(lower, 0.0) if limited else 0.0,
         max(upper, 0.0) if limited else 0.0,
         parent,
-        float(kinds.max() * chance[best] / max(chance.sum(), 1e-9)),
+        float(kinds.max() * (together[best] if kind not in ("ball", "free") else 1.0)),
     )

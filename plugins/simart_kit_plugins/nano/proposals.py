@@ -59,7 +59,7 @@ def of_network(said: Prediction, face_part: IntArray, seen: MeshCloud) -> list[P
             confidence=part.confidence,
             evidence=(f"simart-nano: {part.confidence:.2f} sure of kind and axis",),
         )
-        guess = PartGuess(clean_name(part.label or "part"), label=part.label, score=part.score)
+        guess = PartGuess(clean_name(part.label or "part"), label=part.label, score=part.certainty)
         proposals.append(Proposal(face_part == number, guess, joint, place.get(part.parent)))
     return proposals
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from simart_kit import Mesh
 
     from .meshes import MeshCloud
-    from .predicting import Prediction
+    from .predicting import PredictedPart, Prediction
     from .proposals import Proposal
 
 
@@ -81,8 +81,7 @@ class Nano(Segmenter):
 
         proposals: list[Proposal] = of_network(said, said.piece_part[seen.face_piece], seen)
         if self.options.pool:
-            moves = said.moves[seen.face_piece]
-            proposals = pooled(mesh, of_geometry(mesh, self.seed), proposals, moves)
+            proposals = pooled(mesh, of_geometry(mesh, self.seed), proposals)
         found = segmentation_of(proposals, len(mesh.faces), material)
         return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
 
@@ -126,5 +125,12 @@ def _notes(said: Prediction, seen: MeshCloud, still: float, parts: int) -> tuple
             "segment", "info", f"{seen.cloud.count} {kind}; {what}, about {size:.2g} m (/ or x {factor:.2f})"
         ),
         Note("segment", "info", f"{parts} moving parts"),
+        *(Note("segment", "info", _doubt(part)) for part in said.doubtful),
         *([Note("segment", "warning", _SKIN)] if seen.skin else []),
     )
+
+
+def _doubt(part: PredictedPart) -> str:
+    name = part.label or "part"
+    sure = f"{part.score:.2f} sure that it moves, {part.confidence:.2f} how"
+    return f"a {name} that the network took for {part.kind} was not sure enough: {sure}"

@@ -30,7 +30,7 @@ def evidence(mesh: Mesh, face_piece: IntArray, said: Prediction, seen: MeshCloud
     count = np.maximum(np.bincount(corners, minlength=len(mesh.vertices)), 1)
     moves = np.bincount(corners, chance, len(mesh.vertices)) / count
     points = seen.cloud.points * seen.size + seen.center
-    names = ["body", *(f"{part.label or 'part'} {part.score:.2f}" for part in said.parts)]
+    names = ["body", *(f"{part.label or 'part'} {part.certainty:.2f}" for part in said.parts)]
     return (
         VertexEvidence("Chance to move", np.clip(moves, 0, 1).astype(np.float32)),
         PointEvidence("Points read", points, said.piece_part[seen.cloud.piece], tuple(names)),
