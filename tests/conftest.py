@@ -24,7 +24,7 @@ def converted(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], sk.Re
         with pytest.MonkeyPatch.context() as patch:
             if not example:  # pictures take longest
                 patch.setattr("simart_kit.render.write_preview", lambda asset, path: path)
-            return sk.convert(source(name), out=home / name, record=example)
+            return sk.convert(source(name), "geometric", out=home / name, record=example)
 
     return convert
 

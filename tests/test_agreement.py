@@ -152,7 +152,8 @@ def test_vertex_colours_are_on_every_part(form: str, painted: tuple[Path, sk.Res
 def again(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder of the example converted by the command line, in a process that orders sets in its own way."""
     folder = tmp_path_factory.mktemp("again") / "out"
-    command = [sys.executable, "-m", "simart_kit", "convert", str(EXAMPLE), "--out", str(folder)]
+    options = ["--recipe", "geometric", "--out", str(folder)]
+    command = [sys.executable, "-m", "simart_kit", "convert", str(EXAMPLE), *options]
     environment = {**os.environ, "PYTHONHASHSEED": "1"}
     subprocess.run(command, env=environment, check=True, capture_output=True, timeout=120)
     return folder

@@ -54,7 +54,9 @@ def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def quick(tmp_path: Path, no_picture: None) -> Convert:
     """Convert without formats and recording, too."""
-    return lambda name: sk.convert(source(name), out=tmp_path / name, record=False, sets=["export=[]"])
+    return lambda name: sk.convert(
+        source(name), "geometric", out=tmp_path / name, record=False, sets=["export=[]"]
+    )
 
 
 def kinds(asset: Asset) -> Counter[str]:

@@ -105,7 +105,7 @@ def test_names_come_from_the_table_beside_the_labels(home, mesh, labels, capfd):
 
 def test_parts_of_a_segmenter_where_there_are_no_labels(mesh, capfd):
     assert run(["tokens", mesh]) == 0
-    assert "parts from segmenter 'geometric'" in capfd.readouterr().err
+    assert "parts from segmenter 'nano'" in capfd.readouterr().err
 
 
 def test_a_recipe_is_asked_although_labels_are_there(mesh, labels, capfd):

@@ -166,7 +166,7 @@ def test_transfer_needs_a_segmenter_that_decodes_voxels(home, capfd):
     assert run(["convert", "cabinet.obj", "--transfer", "seeds"]) == 2
     err = capfd.readouterr().err
     assert re.fullmatch(
-        "error: --transfer seeds: segmenter 'geometric' decodes no voxels; .*--recipe tokens\n", err
+        "error: --transfer seeds: segmenter 'nano' decodes no voxels; .*--recipe tokens\n", err
     )
     assert sorted(home.rglob("*")) == before
 

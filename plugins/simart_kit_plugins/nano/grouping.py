@@ -12,6 +12,8 @@ from simart_kit.arrays import FloatArray, IntArray
 # A piece joins a part when its mean chance of belonging with the part's pieces is above this.
 _JOINS = 0.5
 _ROUNDS = 3
+# A piece whose chance to move is less belongs to the body.
+_MOVES = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +38,7 @@ def groups(moves: FloatArray, together: FloatArray, area: FloatArray, least: flo
         area: (S,) of the pieces, any unit.
         least: parts less sure than this are left out.
     """
-    left = moves >= 0.5
+    left = moves >= _MOVES
     found: list[Group] = []
     while left.any():
         # A large sure piece knows more of its part than a small one does.

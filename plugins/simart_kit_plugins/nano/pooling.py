@@ -1,4 +1,4 @@
-"""Parts that the network and geometry propose, made one set in which no face is claimed twice."""
+"""Parts that two propose, made one set in which no face is claimed twice."""
 
 from __future__ import annotations
 
@@ -26,24 +26,27 @@ _ALIKE = np.cos(np.deg2rad(15.0))
 _FREE, _STEPS = 0.25, 8
 
 
-def pooled(mesh: Mesh, geometry: Sequence[Proposal], network: Sequence[Proposal]) -> list[Proposal]:
-    """What both find once, with the joint that is free to move; then what either finds alone.
+def pooled(mesh: Mesh, first: Sequence[Proposal], second: Sequence[Proposal]) -> list[Proposal]:
+    """All that the first proposes, and what the second adds to it.
+
+    What both find is there once, as the first says, but with the second's joint if the first's is stuck and
+    the second's is not. What only the second finds must be free to move, and must not be claimed already.
 
     Args:
         mesh: of the faces.
-        geometry: proposals of geometry alone: its borders and lines are the more exact ones.
-        network: proposals of the network, the surest first.
+        first: proposals, none of which share a face.
+        second: proposals, the surest first.
     """
     areas = mesh.face_areas
-    kept = list(geometry)
-    place = {("geometry", k): k for k in range(len(geometry))}
+    kept = list(first)
+    place = {("first", k): k for k in range(len(first))}
     taken = np.zeros(len(areas), dtype=np.bool_)
     for proposal in kept:
         taken |= proposal.faces
-    for k, proposal in enumerate(network):
+    for k, proposal in enumerate(second):
         twin = next((r for r, p in enumerate(kept) if overlap(mesh, p.faces, proposal.faces) >= _SAME), None)
         if twin is not None:
-            place["network", k] = twin
+            place["second", k] = twin
             kept[twin] = _freer(mesh, kept[twin], proposal)
             continue
         free = proposal.faces & ~taken
@@ -51,10 +54,10 @@ def pooled(mesh: Mesh, geometry: Sequence[Proposal], network: Sequence[Proposal]
             continue
         if _stuck(mesh, proposal.joint, free):
             continue
-        place["network", k] = len(kept)
+        place["second", k] = len(kept)
         kept.append(replace(proposal, faces=free))
         taken |= free
-    return _carried(kept, place, geometry, network)
+    return _carried(kept, place, {"first": first, "second": second})
 
 
 def _freer(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
@@ -82,17 +85,14 @@ def _stuck(mesh: Mesh, joint: Joint, faces: BoolArray) -> bool:
 
 
 def _carried(
-    kept: Sequence[Proposal],
-    place: dict[tuple[str, int], int],
-    geometry: Sequence[Proposal],
-    network: Sequence[Proposal],
+    kept: Sequence[Proposal], place: dict[tuple[str, int], int], sources: dict[str, Sequence[Proposal]]
 ) -> list[Proposal]:
     """Each with the place of its carrier among those kept; the body where that was dropped."""
     whose = {row: key for key, row in reversed(place.items())}
     result = []
     for row, proposal in enumerate(kept):
         source, k = whose[row]
-        parent = (geometry if source == "geometry" else network)[k].parent
+        parent = sources[source][k].parent
         found = None if parent is None else place.get((source, parent))
         result.append(replace(proposal, parent=None if found == row else found))
     return result

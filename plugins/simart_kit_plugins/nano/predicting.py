@@ -15,6 +15,7 @@ from .cloud import Cloud
 from .evidence import COUNT, TOUCHING, evidence
 from .grouping import Group, groups, piece_parts
 from .network import NanoNetwork
+from .siblings import shared_certainty
 from .truth import KINDS
 from .voting import Said, SaidParts, say, say_parts
 
@@ -22,6 +23,8 @@ from .voting import Said, SaidParts, say, say_parts
 _MANY = 256
 # Less sure groups of pieces are not looked at.
 _WORTH = 0.3
+# An object of a known category is recognised from this chance on; less of its parts' sureness is enough then.
+_KNOWN, _EASE = 0.7, 0.4
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +41,7 @@ class PredictedPart:
         lower, upper: limits [rad | sides of the object]; 0 where the kind has none.
         parent: number of the part that carries it, from 1; 0 is the body.
         confidence: chance of kind and line together; 0..1.
+        certainty: how sure it is that this moves, and moves so, as parts of its shape do; 0..1.
     """
 
     pieces: IntArray
@@ -50,11 +54,7 @@ class PredictedPart:
     upper: float
     parent: int
     confidence: float
-
-    @property
-    def certainty(self) -> float:
-        """How sure it is that this moves, and moves so; 0..1."""
-        return self.score * self.confidence
+    certainty: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +67,7 @@ class Prediction:
         piece_part: (S,) part of each piece, from 1; 0 is the body.
         moves: (S,) chance of each piece to be of a moving part.
         category: what it is; empty where no known one fits.
+        recognised: whether that is so sure that its parts need not be.
         categories: chance of each known category.
         size: longest side [m], and the factor by which opinions differ about it, at least 1.
     """
@@ -76,6 +77,7 @@ class Prediction:
     piece_part: IntArray
     moves: FloatArray
     category: str
+    recognised: bool
     categories: Mapping[str, float]
     size: tuple[float, float]
 
@@ -86,21 +88,24 @@ def predict(network: NanoNetwork, cloud: Cloud, least: float = 0.4, votes: int =
     Args:
         network: on the CPU.
         cloud: of the object.
-        least: parts less sure than this, of moving as one and of how, stay with the body.
+        least: parts less sure than this, of moving as one and of how, stay with the body; in an object that
+            is recognised, parts less sure than `_EASE` of it.
         votes: from how many sides it is seen, 1..8; one of very many pieces is seen from one alone.
     """
     said = say(network, cloud, _votes(cloud, votes))
     area = _areas(cloud)
     found = [g for g in groups(said.moves, said.together, area, _WORTH) if len(g.pieces) < cloud.count]
     every = _parts(network, said, cloud, found)
-    parts = _sure(every, least)
     names = network.config.categories
     best = int(said.category.argmax())
     name = names[best - 1] if best else ""
+    recognised = bool(best and said.category[best] >= _KNOWN)
+    least *= _EASE if recognised else 1.0
+    parts = _sure(every, least)
     chances = dict(zip(names, said.category[1:].tolist(), strict=True))
     doubtful = tuple(part for part in every if part.certainty < least)
     piece_part = piece_parts([part.pieces for part in parts], cloud.count)
-    return Prediction(parts, doubtful, piece_part, said.moves, name, chances, said.size)
+    return Prediction(parts, doubtful, piece_part, said.moves, name, recognised, chances, said.size)
 
 
 def _sure(every: Sequence[PredictedPart], least: float) -> tuple[PredictedPart, ...]:
@@ -133,10 +138,13 @@ def _parts(
         numbers[row, : len(own)], real[row, : len(own)] = told, True
     parts = say_parts(network, said.tokens, share, numbers, real)
     carrier = _carriers(parts.carrier)
-    return tuple(
+    each = [
         _part(network, said, parts, row, group, own, carrier[row])
         for row, (group, (own, _)) in enumerate(zip(found, lines, strict=True))
-    )
+    ]
+    alone = np.array([part.certainty for part in each])
+    shared = shared_certainty(cloud, [part.pieces for part in each], alone)
+    return tuple(replace(part, certainty=float(sure)) for part, sure in zip(each, shared, strict=True))
 
 
 def _votes(cloud: Cloud, wished: int) -> int:
@@ -193,6 +201,7 @@ def _part(
         axis, lower, upper = -axis, -upper, -lower
     limited = kind in ("revolute", "prismatic")
     label = int(said.label[group.pieces].mean(axis=0).argmax())
+    confidence = float(kinds.max() * (together[best] if kind not in ("ball", "free") else 1.0))
     return PredictedPart(
         group.pieces,
         network.config.labels[label - 1] if label else "",
@@ -203,5 +212,6 @@ def _part(
         min(lower, 0.0) if limited else 0.0,
         max(upper, 0.0) if limited else 0.0,
         parent,
-        float(kinds.max() * (together[best] if kind not in ("ball", "free") else 1.0)),
+        confidence,
+        group.score * confidence,
     )
