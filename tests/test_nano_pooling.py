@@ -7,7 +7,7 @@ from simart_kit_plugins.nano.cloud import Cloud
 from simart_kit_plugins.nano.config import NanoConfig
 from simart_kit_plugins.nano.network import NanoNetwork
 from simart_kit_plugins.nano.pooling import pooled
-from simart_kit_plugins.nano.proposals import Proposal, segmentation_of
+from simart_kit_plugins.nano.proposals import Proposal, segmentation_of, with_body
 from simart_kit_plugins.nano.turning import VIEWS
 from simart_kit_plugins.nano.voting import say, say_parts
 
@@ -64,6 +64,15 @@ def test_a_carrier_is_found_again_among_those_kept():
     assert [(j.parent, j.child) for j in made.joints] == [("body", "front"), ("front", "knob")]
     assert [guess.material for guess in made.parts] == ["wood", "steel", "steel"]
     assert np.array_equal(made.face_part, np.array([0, 1, 2, 0])[PIECE])
+
+
+def test_something_stands_still():
+    small, large, on_it = proposal([2]), proposal([0, 3], "body"), proposal([1], "drawer", parent=1)
+    found = with_body(MESH, [small, large, on_it])
+    assert [(p.guess.label, p.parent) for p in found] == [("part", None), ("drawer", None)]
+    carried = with_body(MESH, [large, proposal([1], "drawer"), proposal([2], "knob", parent=1)])
+    assert [(p.guess.label, p.parent) for p in carried] == [("drawer", None), ("knob", 0)]
+    assert with_body(MESH, [small, on_it]) == [small, on_it]
 
 
 CONFIG = NanoConfig(

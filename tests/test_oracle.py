@@ -149,7 +149,9 @@ def test_iou_and_type_are_the_benchs():
 
 def slide_of(group):
     none = np.zeros(3)
-    return PredictedPart(group.pieces, "", 1.0, "prismatic", np.array([0.0, 1.0, 0.0]), none, 0, 0.2, 0, 1.0)
+    return PredictedPart(
+        group.pieces, "", 1.0, "prismatic", np.array([0.0, 1.0, 0.0]), none, 0, 0.2, 0, 1.0, 1.0
+    )
 
 
 class Knowing:

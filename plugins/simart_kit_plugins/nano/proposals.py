@@ -85,6 +85,20 @@ def of_geometry(mesh: Mesh, seed: int) -> list[Proposal]:
     ]
 
 
+def with_body(mesh: Mesh, proposals: Sequence[Proposal]) -> list[Proposal]:
+    """The proposals, but for the largest if they leave nothing of the mesh: something has to stand still."""
+    kept = list(proposals)
+    claimed = np.zeros(len(mesh.faces), dtype=np.bool_)
+    for proposal in kept:
+        claimed |= proposal.faces
+    if not kept or not claimed.all():
+        return kept
+    largest = int(np.argmax([mesh.face_areas[proposal.faces].sum() for proposal in kept]))
+    del kept[largest]
+    places = [None if p.parent in (None, largest) else p.parent - (p.parent > largest) for p in kept]
+    return [replace(p, parent=place) for p, place in zip(kept, places, strict=True)]
+
+
 def segmentation_of(
     proposals: Sequence[Proposal], count: int, material: Callable[[str], str]
 ) -> Segmentation:

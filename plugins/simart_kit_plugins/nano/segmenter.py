@@ -80,7 +80,7 @@ class Nano(Segmenter):
         self, mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[str], str]
     ) -> Segmentation:
         from .pooling import pooled
-        from .proposals import of_geometry, of_network, segmentation_of
+        from .proposals import of_geometry, of_network, segmentation_of, with_body
 
         proposals: list[Proposal] = of_network(said, said.piece_part[seen.face_piece], seen)
         if self.options.pool:
@@ -88,7 +88,7 @@ class Nano(Segmenter):
             # Borders and lines by geometry are exact, but who knows the object finds more of it.
             first, second = (proposals, geometry) if said.recognised else (geometry, proposals)
             proposals = pooled(mesh, first, second)
-        found = segmentation_of(proposals, len(mesh.faces), material)
+        found = segmentation_of(with_body(mesh, proposals), len(mesh.faces), material)
         return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
 
 
