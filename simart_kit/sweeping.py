@@ -7,6 +7,8 @@ from collections.abc import Callable
 import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray
+from .asset import Joint
+from .kinematics import joint_motion
 from .rays import Rays
 from .shells import find_shells
 from .triangles import areas, unit_normals
@@ -65,6 +67,36 @@ class Sweep:
             return limit
         count = int(clear.argmin())
         return float(stops[count - 1]) if count else 0.0
+
+
+def free_range(
+    joint: Joint, moving: FloatArray, still: FloatArray, steps: int, seed: int = 0
+) -> tuple[float, float]:
+    """How far a joint can go to either side within its limits [rad | m].
+
+    Args:
+        joint: with limits.
+        moving: (F, 3, 3) triangles that it moves, at rest, in its frame.
+        still: (G, 3, 3) triangles of all else.
+        steps: stops on the way to each limit.
+        seed: of the sampling.
+
+    Raises:
+        ValueError: the joint has no limits.
+    """
+    if joint.limits is None:
+        raise ValueError(f"joint '{joint.name}' has no limits")
+    paths, origin = Sweep(moving, still, seed), np.array(joint.origin)
+
+    def motion(position: float) -> FloatArray:
+        matrix = joint_motion(joint, position)
+        matrix[:3, 3] += origin - matrix[:3, :3] @ origin
+        return matrix
+
+    lower, upper = (
+        paths.free(motion, end, steps) if end else 0.0 for end in (joint.limits.lower, joint.limits.upper)
+    )
+    return lower, upper
 
 
 class _Surface:

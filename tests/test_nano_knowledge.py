@@ -3,7 +3,7 @@
 from simart_kit_plugins.nano.config import NanoConfig
 from simart_kit_plugins.nano.knowledge import Knowledge, counted
 from simart_kit_plugins.nano.network import NanoNetwork
-from simart_kit_plugins.nano.weights import load_knowledge, save_network
+from simart_kit_plugins.nano.weights import load_model, save_network
 
 from simart_kit.physics import MATERIALS
 
@@ -31,5 +31,5 @@ def test_knowledge_is_kept_beside_the_weights(tmp_path):
     known = Knowledge(materials={"/door": "glass"}, still=("bed",))
     save_network(NanoNetwork(config, 0), tmp_path / "a", known)
     save_network(NanoNetwork(config, 0), tmp_path / "b")
-    assert load_knowledge(tmp_path / "a") == known
-    assert load_knowledge(tmp_path / "b") == Knowledge()
+    assert load_model(tmp_path / "a").known == known
+    assert load_model(tmp_path / "b").known == Knowledge()

@@ -12,7 +12,7 @@ from simart_kit_plugins.nano.meshes import MOST_PIECES, mesh_cloud
 from simart_kit_plugins.nano.network import NanoNetwork, PartReading, Reading
 from simart_kit_plugins.nano.segmenter import Nano
 from simart_kit_plugins.nano.truth import KINDS
-from simart_kit_plugins.nano.weights import load_network, save_network
+from simart_kit_plugins.nano.weights import NanoModel, load_model, save_network
 
 from simart_kit.errors import BadInputError
 from simart_kit.mesh import Mesh
@@ -148,8 +148,8 @@ def test_what_the_network_says_becomes_parts_and_joints_in_metres(tmp_path, monk
     asset = cabinet_asset()
     pieces = find_segments(asset.mesh).face_segment
     part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
-    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_network", lambda folder: Oracle(part, slides))
-    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_knowledge", lambda folder: KNOWN)
+    model = NanoModel(Oracle(part, slides), KNOWN)
+    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_model", lambda folder: model)
     options = read_options(Nano, {"model": "any", "pool": False, "votes": 1, "least": 0.0})
     found = Nano(options).segment(asset.mesh)
     assert [guess.name for guess in found.parts] == ["body", "door", "door_2"]
@@ -184,7 +184,7 @@ def test_parts_that_carry_each_other_in_a_ring_hang_on_the_body():
 def test_weights_come_back_in_half_precision_and_say_the_same(tmp_path):
     network = NanoNetwork(CONFIG, 3).eval()
     save_network(network, tmp_path / "model")
-    found = load_network(tmp_path / "model")
+    found = load_model(tmp_path / "model").network
     assert found.config == CONFIG
     for name, tensor in network.state_dict().items():
         assert torch.equal(found.state_dict()[name], tensor.half().float())
@@ -217,15 +217,15 @@ def test_weights_that_do_not_fit_are_refused(tmp_path, damage, told):
     save_network(NanoNetwork(CONFIG, 0), tmp_path / "model")
     damage(tmp_path / "model")
     with pytest.raises(BadInputError, match=told):
-        load_network(tmp_path / "model")
+        load_model(tmp_path / "model")
 
 
 def test_parts_that_are_not_sure_enough_stay_with_the_body_and_are_told(monkeypatch):
     asset = cabinet_asset()
     pieces = find_segments(asset.mesh).face_segment
     part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
-    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_network", lambda folder: Oracle(part, False))
-    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_knowledge", lambda folder: KNOWN)
+    model = NanoModel(Oracle(part, False), KNOWN)
+    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_model", lambda folder: model)
     found = Nano(read_options(Nano, {"model": "any", "pool": False, "least": 0.9})).segment(asset.mesh)
     assert found.face_part.max() == 0
     assert found.joints == ()

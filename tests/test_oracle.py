@@ -219,7 +219,7 @@ def test_what_cannot_be_done_is_one_line(tmp_path, capfd):
     data = written(tmp_path / "data", wardrobe())
     for words, told in (
         ([str(tmp_path / "none")], "no such folder"),
-        ([str(data), "--mesh", "fused.glb"], "variant"),
+        ([str(data), "--variant", "fused"], "variant"),
         ([str(data), "--out", str(tmp_path / "no" / "x.json")], "its folder does not exist"),
         ([str(data), "--model", str(tmp_path)], "config.json: no such file"),
     ):

@@ -10,11 +10,10 @@ from pydantic import Field
 
 import simart_kit
 from simart_kit import Modifier, hookimpl
-from simart_kit.kinematics import carried, joint_motion
+from simart_kit.kinematics import carried
 
 if TYPE_CHECKING:
     from simart_kit import Asset, Joint
-    from simart_kit.arrays import FloatArray
     from simart_kit.hookspecs import Register
 
 
@@ -61,23 +60,11 @@ class Sweep(Modifier):
 
     def _free(self, asset: Asset, joint: Joint) -> tuple[float, float]:
         """Free range within the joint's limits [rad | m]."""
-        from simart_kit.sweeping import Sweep as Paths
+        from simart_kit.sweeping import free_range
 
         moving = np.isin(asset.face_part, [asset.part_index(name) for name in carried(asset, joint.child)])
         triangles = asset.mesh.triangles
-        paths = Paths(triangles[moving], triangles[~moving], self.seed)
-
-        def motion(position: float) -> FloatArray:
-            matrix, origin = joint_motion(joint, position), np.array(joint.origin)
-            matrix[:3, 3] += origin - matrix[:3, :3] @ origin
-            return matrix
-
-        assert joint.limits is not None
-        ends = [
-            paths.free(motion, end, self.options.steps) if end else 0.0
-            for end in (joint.limits.lower, joint.limits.upper)
-        ]
-        return ends[0], ends[1]
+        return free_range(joint, triangles[moving], triangles[~moving], self.options.steps, self.seed)
 
 
 def _range(joint: Joint, lower: float, upper: float) -> str:

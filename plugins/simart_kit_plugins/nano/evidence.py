@@ -16,6 +16,9 @@ _SHIFTS = np.array([-0.8, -0.2, 0.2, 0.8])
 # Points of the part this near to the rest touch it.
 TOUCHING = 0.02
 COUNT = len(SOURCES) + 2 + 3 + 2 + 3 + 3 + 5 + 4
+# Columns of evidence that tell lengths along x, y and z, in sides of the object, and of moves both ways.
+ALONG_AXES = (slice(8, 11), slice(13, 16), slice(16, 19))
+EXTENTS, BOTH_WAYS = slice(11, 13), slice(COUNT - 4, COUNT)
 
 
 def evidence(found: Candidates, part: FloatArray, rest: FloatArray, gap: FloatArray) -> FloatArray:

@@ -11,10 +11,9 @@ from simart_kit.mesh import Mesh
 from simart_kit.segments import find_segments
 from simart_kit.triangles import areas, unit_normals
 
-from .candidates import candidates
 from .cloud import Cloud, sample_evenly, sample_pieces
-from .evidence import TOUCHING, evidence
 from .generate.objects import GeneratedObject
+from .part_lines import part_lines
 from .scene import Pieces, pieces_of
 from .superfaces import superfaces
 from .truth import KINDS, PartTruth, majority, right_candidates
@@ -130,17 +129,13 @@ def _thinned(owner: IntArray, generator: np.random.Generator) -> tuple[IntArray,
 
 def _part(made: GeneratedObject, number: int, cloud: Cloud, part: IntArray) -> MovingPart | None:
     """The part of this number as its pieces show it; None where too little is seen of it."""
-    from scipy.spatial import cKDTree
-
     motion = made.bodies[number].motion
     inside = part[cloud.piece] == number
     if motion is None or inside.sum() < 4 or inside.all():
         return None
-    own, rest = cloud.points[inside], cloud.points[~inside]
-    gap = np.minimum(np.asarray(cKDTree(rest).query(own)[0]), 1.0)
-    found = candidates(own, cloud.normals[inside], own[gap < TOUCHING])
-    right = right_candidates(found, motion)
+    lines = part_lines(cloud, inside)
+    right = right_candidates(lines.found, motion)
     body = made.bodies[number]
     limits = np.array([motion.lower, motion.upper])
     truth = PartTruth(KINDS.index(motion.kind), right, limits, body.parent, body.label)
-    return MovingPart(truth, evidence(found, own, rest, gap))
+    return MovingPart(truth, lines.evidence())

@@ -14,6 +14,7 @@ from simart_kit.arrays import FloatArray
 
 from .config import NanoConfig
 from .network import Batch
+from .scene import AREA, MIDDLE
 from .store import Stored
 
 _STEP = 16
@@ -91,7 +92,7 @@ def point_numbers(e: Stored) -> FloatArray:
     points, normals = e.points.astype(np.float32), e.normals.astype(np.float32)
     x, y, z = normals.T
     facing = np.stack([x * x, y * y, z * z, x * y, x * z, y * z], axis=1)
-    inside = 4 * (points - e.own[e.piece, :3])
+    inside = 4 * (points - e.own[e.piece, MIDDLE])
     return np.concatenate([points, inside, facing, e.colors.astype(np.float32) - 0.5], axis=1)
 
 
@@ -108,7 +109,7 @@ def targets_of(examples: Sequence[Stored], config: NanoConfig) -> Targets:
         size, first = len(e.own), len(rows)
         part[row, :size] = e.part
         starts = np.concatenate([[0], np.cumsum(e.candidates)])
-        area = np.exp((e.own[:, 21] - 1) * 6)
+        area = np.exp((e.own[:, AREA] - 1) * 6)
         carried = {int(n): first + k for k, n in enumerate(e.number)}
         for k, n in enumerate(e.number):
             mine = e.part == n

@@ -9,14 +9,12 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray
 
-from .scene import REACH, area_number, area_share
+from .evidence import EXTENTS
+from .scene import AREA, COLOR, HALF, MIDDLE, REACH, SPREAD, area_number, area_share
 from .store import Stored
 from .truth import KINDS
 from .turning import turned
 
-# Columns of `Pieces.own` and of `evidence` that are lengths; angles, shares and colours are not.
-_OWN_LENGTHS, _AREA, _COLOR = slice(3, 12), 21, slice(18, 21)
-_EVIDENCE_LENGTHS = slice(11, 13)
 _PRISMATIC = KINDS.index("prismatic")
 # How often a batch is of pairs of objects, of how many pieces these have at most, and how often one is grey.
 _PAIRED, _MOST, _GREY = 0.25, 80, 0.2
@@ -42,7 +40,7 @@ def recolored(e: Stored, generator: np.random.Generator) -> Stored:
         mix = np.eye(3)[generator.permutation(3)] * generator.uniform(0.4, 1.2)
         shift = generator.normal(0, 0.1, 3)
     own = e.own.copy()
-    own[:, _COLOR] = own[:, _COLOR] @ mix.T + shift
+    own[:, COLOR] = own[:, COLOR] @ mix.T + shift
     colors = (e.colors.astype(np.float32) - 0.5) @ mix.T + shift + 0.5
     return replace(e, own=own, colors=colors)
 
@@ -72,17 +70,18 @@ def beside(one: Stored, other: Stored, generator: np.random.Generator) -> Stored
 
 
 def _bounds(e: Stored) -> tuple[FloatArray, FloatArray]:
-    middle, half = e.own[:, :3].astype(np.float64), e.own[:, 3:6].astype(np.float64)
+    middle, half = e.own[:, MIDDLE].astype(np.float64), e.own[:, HALF].astype(np.float64)
     return (middle - half).min(axis=0), (middle + half).max(axis=0)
 
 
 def _moved(e: Stored, scale: float, shift: FloatArray, share: float) -> Stored:
     """Scaled, then shifted; its surface is this share of the whole."""
     own, numbers, travel = e.own.copy(), e.numbers.copy(), e.travel.copy()
-    own[:, :3] = own[:, :3] * scale + shift
-    own[:, _OWN_LENGTHS] *= scale
-    own[:, _AREA] = area_number(area_share(own[:, _AREA].astype(np.float64)) * share)
-    numbers[:, _EVIDENCE_LENGTHS] *= scale
+    own[:, MIDDLE] = own[:, MIDDLE] * scale + shift
+    for lengths in (HALF, SPREAD):
+        own[:, lengths] *= scale
+    own[:, AREA] = area_number(area_share(own[:, AREA].astype(np.float64)) * share)
+    numbers[:, EXTENTS] *= scale
     travel[e.kind == _PRISMATIC] *= scale
     gap = np.where(e.gap < REACH * 0.99, e.gap * scale, e.gap)
     points = e.points.astype(np.float32) * scale + shift

@@ -5,9 +5,9 @@ from __future__ import annotations
 import torch
 from torch import Tensor
 
+from .scene import AREA, COLOR, FACING, HALF, MIDDLE
+
 PAIR_NUMBERS = 13
-# Columns of `Pieces.own`.
-_MIDDLE, _HALF, _FACING, _COLOR, _AREA = slice(0, 3), slice(3, 6), slice(12, 18), slice(18, 21), 21
 # Two boxes that touch overlap a little [sides of the object].
 _MARGIN = 0.004
 
@@ -25,17 +25,17 @@ def pair_numbers(own: Tensor, gap: Tensor) -> Tensor:
         of each box is in the other's (2), alike in shape, color and direction, one larger than the other,
         and whether they are the same.
     """
-    middle, half = own[..., _MIDDLE], own[..., _HALF]
+    middle, half = own[..., MIDDLE], own[..., HALF]
     apart = torch.cdist(middle, middle)
     low, high = middle - half - _MARGIN, middle + half + _MARGIN
     shared = torch.minimum(high[:, :, None], high[:, None]) - torch.maximum(low[:, :, None], low[:, None])
     within = shared.clamp(min=0).prod(-1) / (high - low).prod(-1)[..., None]
     above = middle[..., 2]
-    area = own[..., _AREA]
+    area = own[..., AREA]
     alike = [
         torch.exp(-8 * torch.cdist(half, half)),
-        torch.exp(-8 * torch.cdist(own[..., _COLOR], own[..., _COLOR])),
-        torch.cdist(own[..., _FACING], own[..., _FACING]),
+        torch.exp(-8 * torch.cdist(own[..., COLOR], own[..., COLOR])),
+        torch.cdist(own[..., FACING], own[..., FACING]),
     ]
     same = torch.eye(own.shape[1], device=own.device).expand(len(own), -1, -1)
     return torch.stack(

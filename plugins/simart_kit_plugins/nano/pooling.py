@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray
-from simart_kit.kinematics import joint_motion
-from simart_kit.sweeping import Sweep
+from simart_kit.sweeping import free_range
 
 from .proposals import Proposal, overlap
 
@@ -72,16 +70,8 @@ def _stuck(mesh: Mesh, joint: Joint, faces: BoolArray) -> bool:
     """Whether a joint with limits is blocked both ways almost at once."""
     if joint.limits is None:
         return False
-    paths = Sweep(mesh.triangles[faces], mesh.triangles[~faces])
-
-    def motion(position: float) -> FloatArray:
-        matrix, origin = joint_motion(joint, position), np.array(joint.origin)
-        matrix[:3, 3] += origin - matrix[:3, :3] @ origin
-        return matrix
-
-    ends = (joint.limits.lower, joint.limits.upper)
-    free = sum(abs(paths.free(motion, end, _STEPS)) for end in ends if end)
-    return free < _FREE * (ends[1] - ends[0])
+    lower, upper = free_range(joint, mesh.triangles[faces], mesh.triangles[~faces], _STEPS)
+    return upper - lower < _FREE * (joint.limits.upper - joint.limits.lower)
 
 
 def _carried(

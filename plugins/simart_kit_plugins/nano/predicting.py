@@ -10,15 +10,18 @@ import numpy as np
 from simart_kit.arrays import FloatArray, IntArray
 from simart_kit.asset import JointKind
 
-from .candidates import SLIDE, Candidates, alike, candidates
+from .candidates import SLIDE, Candidates, alike
 from .cloud import Cloud
-from .evidence import COUNT, TOUCHING, evidence
+from .evidence import COUNT
 from .grouping import Group, groups, piece_parts
 from .network import NanoNetwork
+from .part_lines import part_lines
 from .siblings import shared_certainty
 from .truth import KINDS
 from .voting import Said, SaidParts, say, say_parts
 
+# From how many sides an object is looked at.
+VOTES = 4
 # The time that the network takes grows with the square of the pieces.
 _MANY = 256
 # Less sure groups of pieces are not looked at.
@@ -82,7 +85,7 @@ class Prediction:
     size: tuple[float, float]
 
 
-def predict(network: NanoNetwork, cloud: Cloud, least: float = 0.4, votes: int = 4) -> Prediction:
+def predict(network: NanoNetwork, cloud: Cloud, least: float, votes: int = VOTES) -> Prediction:
     """Read a cloud.
 
     Args:
@@ -116,7 +119,7 @@ def _sure(every: Sequence[PredictedPart], least: float) -> tuple[PredictedPart, 
 
 
 def predict_groups(
-    network: NanoNetwork, cloud: Cloud, found: Sequence[Group], votes: int = 4
+    network: NanoNetwork, cloud: Cloud, found: Sequence[Group], votes: int = VOTES
 ) -> tuple[PredictedPart, ...]:
     """The joints of given groups of pieces, in their order; none holds all pieces."""
     return _parts(network, say(network, cloud, _votes(cloud, votes)), cloud, found)
@@ -128,19 +131,20 @@ def _parts(
     if not found:
         return ()
     area = _areas(cloud)
-    lines = [_candidates(cloud, group) for group in found]
-    widest = max(len(own) for own, _ in lines)
+    lines = [part_lines(cloud, np.isin(cloud.piece, group.pieces)) for group in found]
+    widest = max(len(line.found) for line in lines)
     share = np.zeros((len(found), cloud.count), dtype=np.float32)
     numbers = np.zeros((len(found), widest, COUNT))
     real = np.zeros((len(found), widest), dtype=np.bool_)
-    for row, (group, (own, told)) in enumerate(zip(found, lines, strict=True)):
+    for row, (group, line) in enumerate(zip(found, lines, strict=True)):
         share[row, group.pieces] = area[group.pieces] / area[group.pieces].sum()
-        numbers[row, : len(own)], real[row, : len(own)] = told, True
+        count = len(line.found)
+        numbers[row, :count], real[row, :count] = line.evidence(), True
     parts = say_parts(network, said.tokens, share, numbers, real)
     carrier = _carriers(parts.carrier)
     each = [
-        _part(network, said, parts, row, group, own, carrier[row])
-        for row, (group, (own, _)) in enumerate(zip(found, lines, strict=True))
+        _part(network, said, parts, row, group, line.found, carrier[row])
+        for row, (group, line) in enumerate(zip(found, lines, strict=True))
     ]
     alone = np.array([part.certainty for part in each])
     shared = shared_certainty(cloud, [part.pieces for part in each], alone)
@@ -153,17 +157,6 @@ def _votes(cloud: Cloud, wished: int) -> int:
 
 def _areas(cloud: Cloud) -> FloatArray:
     return np.asarray(np.bincount(cloud.piece, cloud.area, cloud.count), dtype=np.float64)
-
-
-def _candidates(cloud: Cloud, group: Group) -> tuple[Candidates, FloatArray]:
-    """The candidates of a group and their evidence."""
-    from scipy.spatial import cKDTree
-
-    inside = np.isin(cloud.piece, group.pieces)
-    own, rest = cloud.points[inside], cloud.points[~inside]
-    gap = np.minimum(np.asarray(cKDTree(rest).query(own)[0]), 1.0)
-    found = candidates(own, cloud.normals[inside], own[gap < TOUCHING])
-    return found, evidence(found, own, rest, gap)
 
 
 def _carriers(chance: FloatArray) -> list[int]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from simart_kit import Joint, Limits, PartGuess, Segmentation
 from simart_kit.arrays import BoolArray, FloatArray, vec3
+from simart_kit.assemble import checked
 from simart_kit.asset import clean_name, unique_names
 
 if TYPE_CHECKING:
@@ -69,9 +70,8 @@ def of_geometry(mesh: Mesh, seed: int) -> list[Proposal]:
     from ..geometric.predictor import GeometricJoints
     from ..geometric.segmenter import Geometric
 
-    found = Geometric(seed=seed).segment(mesh)
-    names = unique_names([clean_name(guess.name) for guess in found.parts])
-    found = replace(found, parts=tuple(replace(g, name=n) for g, n in zip(found.parts, names, strict=True)))
+    found = checked(Geometric(seed=seed).segment(mesh), mesh)
+    names = [guess.name for guess in found.parts]
     joints = GeometricJoints(seed=seed).predict(mesh, found)
     place = {joint.child: k for k, joint in enumerate(joints)}
     return [

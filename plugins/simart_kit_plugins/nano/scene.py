@@ -14,7 +14,10 @@ from .cloud import Cloud
 REACH = 0.06
 _NEIGHBOURS = 8
 _LEAST = 1e-5
-PIECE_NUMBERS = 3 + 3 + 6 + 6 + 3 + 2
+# Columns of `Pieces.own`.
+MIDDLE, HALF, SPREAD, FACING, COLOR = slice(0, 3), slice(3, 6), slice(6, 12), slice(12, 18), slice(18, 21)
+AREA, FLATNESS = 21, 22
+PIECE_NUMBERS = 23
 
 
 @dataclass(frozen=True, eq=False)

@@ -60,14 +60,14 @@ class Nano(Segmenter):
         from .meshes import mesh_cloud
         from .predicting import predict
         from .showing import evidence
-        from .weights import load_knowledge, load_network, shipped_folder
+        from .weights import load_model, shipped_folder
 
         folder = Path(self.options.model) if self.options.model else shipped_folder()
-        network, known = load_network(folder), load_knowledge(folder)
+        model = load_model(folder)
         seen = mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(self.seed))
-        said = predict(network, seen.cloud, self.options.least, self.options.votes)
-        material = partial(known.material, said.category)
-        still = sum(said.categories[name] for name in known.still)
+        said = predict(model.network, seen.cloud, self.options.least, self.options.votes)
+        material = partial(model.known.material, said.category)
+        still = sum(said.categories[name] for name in model.known.still)
         if still >= _STILL:
             found = _static(mesh, seen, material)
         else:
@@ -103,7 +103,7 @@ def _of_skin(mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[
     """Parts of a skin, their ends where creases, colours and short ways suggest; large faces may be cut."""
     from .boundaries.cutting import cut
     from .boundaries.patch_parts import patch_parts, patch_size
-    from .proposals import of_network, segmentation_of
+    from .proposals import of_network, segmentation_of, with_body
 
     assert seen.middles is not None
     face_part = said.piece_part[seen.face_piece].astype(np.int32)
@@ -111,10 +111,9 @@ def _of_skin(mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[
         return _static(mesh, seen, material)
     at = patch_parts(mesh, seen.middles, said.piece_part)
     done = cut(mesh, face_part, at, patch_size(mesh, seen.cloud.count))
-    part = done.face_part
-    if part.all():  # the body's patches are the middle of no face
-        part = np.where(part == np.bincount(part).argmax(), 0, part)
-    found = segmentation_of(of_network(said, part, seen), len(part), material)
+    # The body's patches may be the middle of no face.
+    proposals = with_body(done.mesh, of_network(said, done.face_part, seen))
+    found = segmentation_of(proposals, len(done.face_part), material)
     pieces = frozen_ints(seen.face_piece[done.face_source].astype(np.int32))
     return replace(found, face_segment=pieces, mesh=None if done.mesh is mesh else done.mesh)
 

@@ -9,11 +9,10 @@ import numpy as np
 from simart_kit.arrays import Float32Array, FloatArray
 
 from .candidates import SLIDE
+from .evidence import ALONG_AXES, BOTH_WAYS
+from .scene import FACING, HALF, MIDDLE, SPREAD
 from .store import Stored
 
-# Columns of `evidence` that tell lengths along x, y and z; the last ones tell of moves both ways.
-_LENGTHS = (slice(8, 11), slice(13, 16), slice(16, 19))
-_SWEPT = 4
 # All ways that an object may be seen: quarters and whether mirrored; those that differ most come first.
 VIEWS = ((0, False), (1, True), (2, False), (3, True), (0, True), (1, False), (2, True), (3, False))
 
@@ -38,9 +37,9 @@ def turned_pieces(own: Float32Array, quarters: int, mirrored: bool) -> Float32Ar
     """(S, PIECE_NUMBERS) of the same pieces, turned."""
     matrix = _matrix(quarters, mirrored)
     result = own.copy()
-    result[:, :3] = own[:, :3] @ matrix.T
-    result[:, 3:6] = own[:, 3:6] @ np.abs(matrix).T
-    for columns in (slice(6, 12), slice(12, 18)):
+    result[:, MIDDLE] = own[:, MIDDLE] @ matrix.T
+    result[:, HALF] = own[:, HALF] @ np.abs(matrix).T
+    for columns in (SPREAD, FACING):
         # Roots of second moments turn like these: a turn by quarters only swaps them and their signs.
         result[:, columns] = _packed(np.asarray(matrix @ _square(own[:, columns]) @ matrix.T, np.float32))
     return result
@@ -50,11 +49,11 @@ def turned_evidence(numbers: FloatArray, quarters: int, mirrored: bool) -> Float
     """(C, COUNT) evidence of the same candidates, turned."""
     result = numbers.copy()
     if quarters % 2:
-        for columns in _LENGTHS:
+        for columns in ALONG_AXES:
             result[:, columns] = numbers[:, columns][:, [1, 0, 2]]
     if mirrored:
         turns = numbers[:, SLIDE] == 0
-        result[turns, -_SWEPT:] = numbers[turns, -_SWEPT:][:, ::-1]
+        result[turns, BOTH_WAYS] = numbers[turns, BOTH_WAYS][:, ::-1]
     return result
 
 

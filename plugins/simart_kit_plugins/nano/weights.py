@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 from textwrap import shorten
@@ -62,13 +63,31 @@ def save_network(network: NanoNetwork, folder: Path, known: Knowledge | None = N
         raise OutputError(f"cannot write the model to {folder}: {error.strerror or error}") from error
 
 
-def load_network(folder: Path) -> NanoNetwork:
-    """Read a folder that `save_network` wrote, onto the CPU, in float32.
+@dataclass(frozen=True, eq=False)
+class NanoModel:
+    """What a folder holds.
+
+    Attributes:
+        network: on the CPU, in float32.
+        known: what goes with it.
+    """
+
+    network: NanoNetwork
+    known: Knowledge
+
+
+def load_model(folder: Path) -> NanoModel:
+    """Read a folder that `save_network` wrote.
 
     Raises:
         BadInputError: a file is missing or damaged, the weights are of another config, or not all are finite.
     """
-    config, tensors = _config(folder / CONFIG_FILE).config, _tensors(folder / WEIGHTS_FILE)
+    file = _config(folder / CONFIG_FILE)
+    return NanoModel(_network(file.config, folder), file.knowledge)
+
+
+def _network(config: NanoConfig, folder: Path) -> NanoNetwork:
+    tensors = _tensors(folder / WEIGHTS_FILE)
     try:
         network = NanoNetwork(config)
         network.load_state_dict(tensors)
@@ -79,11 +98,6 @@ def load_network(folder: Path) -> NanoNetwork:
             f"of different ones ({shorten(first, 160)}): copy both files from one folder"
         ) from error
     return network.eval()
-
-
-def load_knowledge(folder: Path) -> Knowledge:
-    """What was saved with a network; raises BadInputError as `load_network` does."""
-    return _config(folder / CONFIG_FILE).knowledge
 
 
 def _config(path: Path) -> _ConfigFile:

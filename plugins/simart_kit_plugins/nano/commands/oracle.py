@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from simart_kit.bench.numbers import counted, number
-from simart_kit.cli.bench.options import Data
+from simart_kit.cli.bench.options import Data, Variant
 from simart_kit.cli.common import load_plugins, print_json, print_rows, stdout_kept
 from simart_kit.cli.options import Json, PluginFiles, Verbose
 from simart_kit.errors import OutputError
@@ -21,15 +21,6 @@ if TYPE_CHECKING:
     from ..oracle.judging import PartResult
     from ..oracle.ladder import Ladder
 
-Mesh = Annotated[
-    str,
-    typer.Option(
-        "--mesh",
-        "--variant",
-        metavar="NAME",
-        help="A mesh beside input.glb of SIMART-Bench objects, such as fused.glb.",
-    ),
-]
 Model = Annotated[
     Path | None,
     typer.Option(metavar="DIR", help="Folder of nano's weights; without, the steps that need none."),
@@ -41,7 +32,7 @@ Out = Annotated[
 
 def oracle(
     data: Data,
-    mesh: Mesh = "input.glb",
+    variant: Variant = "input",
     model: Model = None,
     out: Out = None,
     plugin: PluginFiles = None,
@@ -58,12 +49,12 @@ def oracle(
         from ..oracle.totals import kind_shares, rungs
 
         _check(out)
-        found, skipped = _climbed(data, mesh, model, plugin)
+        found, skipped = _climbed(data, variant, model, plugin)
         total, kinds = rungs(found), kind_shares(found)
         document = {
             "ok": True,
             "data": data.resolve().name,
-            "mesh": mesh,
+            "variant": variant,
             "model": None if model is None else str(model),
             "ladder": [asdict(rung) for rung in total],
             "candidates": {kind: asdict(share) for kind, share in kinds.items()},
@@ -87,14 +78,14 @@ _HEAD = ("", "part IoU", "parts kept", "Type", "joints right", "invented")
 
 
 def _climbed(
-    data: Path, mesh: str, model: Path | None, plugin: list[Path] | None
+    data: Path, variant: str, model: Path | None, plugin: list[Path] | None
 ) -> tuple[list[Ladder], dict[str, str]]:
     """The objects, and why others were skipped, which is told at once."""
     from ..oracle.ladder import Ladder, ladders
 
     found: list[Ladder] = []
     skipped: dict[str, str] = {}
-    for one in ladders(data, load_plugins(plugin), Path(mesh).stem, model):
+    for one in ladders(data, load_plugins(plugin), variant, model):
         if isinstance(one, Ladder):
             found.append(one)
         else:

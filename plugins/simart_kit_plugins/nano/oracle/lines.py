@@ -7,25 +7,15 @@ import numpy as np
 from simart_kit.arrays import IntArray, vec3
 from simart_kit.bench.articulation import Link, LinkJoint
 
-from ..candidates import SLIDE, Candidates, candidates
+from ..candidates import SLIDE, Candidates
 from ..cloud import Cloud
-from ..evidence import TOUCHING
+from ..part_lines import part_lines
 from .judging import off
 
 
 def part_candidates(cloud: Cloud, pieces: IntArray) -> Candidates:
-    """The candidates of a part.
-
-    Args:
-        cloud: of the object.
-        pieces: (K,) the pieces that the part consists of, at least one.
-    """
-    from scipy.spatial import cKDTree
-
-    inside = np.isin(cloud.piece, pieces)
-    own, rest = cloud.points[inside], cloud.points[~inside]
-    gap = np.asarray(cKDTree(rest).query(own)[0])
-    return candidates(own, cloud.normals[inside], own[gap < TOUCHING])
+    """The candidates of the part that (K,) pieces are; at least one is, and one is not."""
+    return part_lines(cloud, np.isin(cloud.piece, pieces)).found
 
 
 def best_joint(found: Candidates, link: Link) -> LinkJoint:

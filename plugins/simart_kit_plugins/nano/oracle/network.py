@@ -17,7 +17,7 @@ from ..grouping import Group
 from ..network import NanoNetwork
 from ..predicting import PredictedPart, predict_groups
 from ..segmenter import Nano
-from ..weights import load_network
+from ..weights import load_model as load_weights
 from .case import Case, cloud_from_asset
 from .judging import Judged, judge
 
@@ -37,7 +37,7 @@ class Model:
 
 def load_model(folder: Path) -> Model:
     """Read a folder such as `train nano` writes; raises BadInputError where it is none."""
-    network = load_network(folder)
+    network = load_weights(folder).network
     return Model(network, Nano(read_options(Nano, {"model": str(folder)})))
 
 
