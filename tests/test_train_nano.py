@@ -11,6 +11,7 @@ from simart_kit_plugins.nano.training import checkpoint, pool
 from simart_kit_plugins.nano.training.loop import batch_rows, train, with_names
 from simart_kit_plugins.nano.training.plan import UNSEEN, TrainingPlan
 from simart_kit_plugins.nano.training.scores import score
+from simart_kit_plugins.nano.weights import load_model, save_network
 
 from simart_kit.cli.main import run
 from simart_kit.errors import BadInputError
@@ -70,8 +71,8 @@ def test_objects_of_a_pool_depend_on_their_number_alone(tmp_path, objects):
         assert np.array_equal(one.numbers, other.numbers)
 
 
-def test_every_pass_takes_each_small_example_at_most_once_and_alike_sizes_together():
-    sizes = np.random.default_rng(0).integers(1, 90, 640).tolist()
+def test_every_pass_takes_each_example_at_most_once_and_alike_sizes_together():
+    sizes = np.random.default_rng(0).integers(1, 190, 640).tolist()
     batches = [batch_rows(sizes, 8, seed=1, step=step) for step in range(80)]
     assert sorted(row for batch in batches for row in batch) == list(range(640))
     spread = np.mean([np.ptp([sizes[row] for row in batch]) for batch in batches])
@@ -80,12 +81,15 @@ def test_every_pass_takes_each_small_example_at_most_once_and_alike_sizes_togeth
     assert batch_rows([3, 4], 8, seed=1, step=5) in ([0, 1], [1, 0])
 
 
-def test_two_passes_take_each_large_example_once_and_each_small_one_twice():
-    sizes = [150 if row < 64 else 20 for row in range(320)]
-    rows = [row for step in range(72) for row in batch_rows(sizes, 8, seed=1, step=step)]
-    # A pass has 32 of the large ones and all 256 small ones: 36 steps.
-    assert sorted(row for row in rows if row < 64) == list(range(64))
-    assert sorted(row for row in rows if row >= 64) == sorted([*range(64, 320)] * 2)
+def test_a_training_goes_on_from_the_weights_of_a_model(plan, objects, tmp_path):
+    save_network(train(plan, objects, tmp_path / "first", lambda row: None), tmp_path / "model")
+    then = weights(load_model(tmp_path / "model").network)
+    further = plan.model_copy(update={"start": str(tmp_path / "model")})
+    begun = weights(checkpoint.begun(further).network)
+    assert all(torch.equal(begun[name], tensor) for name, tensor in then.items())
+    other = further.model_copy(update={"network": plan.network.model_copy(update={"channels": 32})})
+    with pytest.raises(BadInputError, match=r"has other channels than this training: begin without --start"):
+        checkpoint.begun(other)
 
 
 def test_a_run_that_was_killed_ends_with_the_weights_it_would_have_had(plan, objects, tmp_path):

@@ -27,6 +27,10 @@ Steps = Annotated[int | None, typer.Option(min=1, metavar="N", help="Steps of tr
 Batch = Annotated[int | None, typer.Option(min=1, metavar="N", help="Objects a step.")]
 HeldOut = Annotated[int | None, typer.Option(min=1, metavar="N", help="Objects to judge on.")]
 Rate = Annotated[float | None, typer.Option(metavar="X", help="Step size of AdamW.")]
+Start = Annotated[
+    Path | None,
+    typer.Option(metavar="DIR", help="Go on from the weights of this model; default: from nothing."),
+]
 Seed = Annotated[int | None, typer.Option(min=0, metavar="N", help="Decides all that is random.")]
 Device = Annotated[str | None, typer.Option(metavar="cpu|cuda", help="Where to compute; also cuda:N.")]
 Precision = Annotated[str | None, typer.Option(metavar="fp32|bf16", help="Arithmetic of the network.")]
@@ -46,6 +50,7 @@ def train_nano(
     batch_size: Batch = None,
     held_out: HeldOut = None,
     learning_rate: Rate = None,
+    start: Start = None,
     seed: Seed = None,
     device: Device = None,
     precision: Precision = None,
@@ -68,13 +73,14 @@ def train_nano(
         "batch_size": batch_size,
         "held_out": held_out,
         "learning_rate": learning_rate,
+        "start": str(start) if start else None,
         "seed": seed,
         "device": device,
         "precision": precision,
     }
     with stdout_kept(json):
         plan = _plan({name: value for name, value in changes.items() if value is not None})
-        _check(run, resume, evaluate)
+        _check(run, start, resume, evaluate)
         scores = _performed(plan, run, processes or os.cpu_count() or 1, evaluate, quiet)
     if json:
         print_json({"ok": True, "run": str(run), "scores": {k: asdict(v) for k, v in scores.items()}})
@@ -95,8 +101,9 @@ def _plan(changes: dict[str, object]) -> TrainingPlan:
         raise BadInputError(f"training options: {told(error)}") from error
 
 
-def _check(run: Path, resume: bool, evaluate: bool) -> None:
+def _check(run: Path, start: Path | None, resume: bool, evaluate: bool) -> None:
     from ..training import checkpoint
+    from ..weights import load_model
 
     if run.is_file():
         raise BadInputError(f"{run} is a file: choose a folder")
@@ -104,6 +111,8 @@ def _check(run: Path, resume: bool, evaluate: bool) -> None:
         raise BadInputError(f"{run} has no checkpoint to judge: train it first")
     if checkpoint.exists(run) and not (resume or evaluate):
         raise BadInputError(f"{run} has a run already: go on with --resume, or choose another --run")
+    if start:
+        load_model(start)  # what is wrong with it is told before objects are made
 
 
 def _performed(

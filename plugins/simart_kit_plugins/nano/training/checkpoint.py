@@ -14,6 +14,7 @@ from torch.optim import AdamW
 from simart_kit.errors import BadInputError, OutputError
 
 from ..network import NanoNetwork
+from ..weights import load_model
 from .plan import TrainingPlan
 
 FOLDER, TENSORS, STATE = "checkpoint", "state.safetensors", "state.json"
@@ -44,8 +45,26 @@ class Progressing:
 
 
 def begun(plan: TrainingPlan) -> Progressing:
-    """The state before the first step."""
-    network = NanoNetwork(plan.network, plan.seed).to(plan.device)
+    """The state before the first step: random weights, or those of the model to go on from.
+
+    Raises:
+        BadInputError: that model cannot be read, or is of another network than the plan's.
+    """
+    if not plan.start:
+        return _with(NanoNetwork(plan.network, plan.seed), plan)
+    network = load_model(Path(plan.start)).network
+    own, wanted = network.config.model_dump(), plan.network.model_dump()
+    other = [name for name in own if own[name] != wanted[name]]
+    if other:
+        raise BadInputError(
+            f"start: {plan.start} has other {' and '.join(other)} than this training: "
+            "begin without --start, or go on from a model that was trained with them"
+        )
+    return _with(network.train(), plan)
+
+
+def _with(network: NanoNetwork, plan: TrainingPlan) -> Progressing:
+    network = network.to(plan.device)
     optimiser = optimiser_of(network, plan)
     return Progressing(network, {n: t.clone() for n, t in network.state_dict().items()}, optimiser)
 
@@ -111,7 +130,7 @@ def load(plan: TrainingPlan, run: Path) -> Progressing:
         table = json.loads((folder / STATE).read_text(encoding="utf-8"))
         _check_same(TrainingPlan.model_validate_json(json.dumps(table["plan"])), plan, folder)
         tensors = load_file(folder / TENSORS)
-        state = begun(plan)
+        state = _with(NanoNetwork(plan.network), plan)
         with torch.no_grad():
             for name, own in _tensors(state).items():
                 own.copy_(tensors[name])

@@ -25,8 +25,6 @@ from .plan import TrainingPlan
 
 # Objects of a like size lie side by side in so many batches: less padding.
 _SORTED = 16
-# Objects of more pieces than this take most of the time: a pass has every second of them.
-_LARGE = 90
 
 
 @dataclass(frozen=True)
@@ -94,15 +92,12 @@ def batch_rows(sizes: Sequence[int], batch_size: int, seed: int, step: int) -> l
         seed: of the order.
         step: 0...
     """
-    weights = np.asarray(sizes)
-    kinds = [np.flatnonzero((weights <= _LARGE) | (np.arange(len(weights)) % 2 == k)) for k in range(2)]
-    kinds = [kind for kind in kinds if len(kind)]
-    count = min(map(len, kinds))
+    weights, count = np.asarray(sizes), len(sizes)
     batch_size = min(batch_size, count)
     per_pass = count // batch_size
     turn = step // per_pass
     generator = np.random.default_rng((seed, turn))
-    order = generator.permutation(kinds[turn % len(kinds)])[:count]
+    order = generator.permutation(count)
     group = _SORTED * batch_size
     ordered = [
         part[np.argsort(weights[part], kind="stable")] for part in np.split(order, range(group, count, group))

@@ -47,6 +47,7 @@ class TrainingPlan(Table):
     checkpoint_every: int = Field(default=500, gt=0, description="Steps between checkpoints.")
     log_every: int = Field(default=50, gt=0, description="Steps between lines.")
     precision: Literal["fp32", "bf16"] = Field(default="bf16", description="Arithmetic of the network.")
+    start: str = Field(default="", description="Folder of the model to go on from; from nothing by default.")
     device: str = Field(default="cpu", pattern=r"^(cpu|cuda(:[0-9]+)?)$", description="cpu or cuda:N.")
     network: NanoConfig = Field(
         default=NanoConfig(), description="Sizes; labels and categories are filled in."
