@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 _SCHEME = re.compile(r"^(package|model|file)://+")
 _PARENTS = 3  # folders above a file that a package may be
+BASE_EXCLUDE = "fixed base: "
+"""What names of the excludes begin with that stand for MuJoCo's filter of a base that floats in the file."""
 _NUMBERS = (
     "jnt_axis",
     "jnt_pos",
@@ -44,14 +46,41 @@ def load_model(file: Path) -> mujoco.MjModel:
     Raises:
         LoadError: missing or damaged, or MuJoCo refuses it.
     """
+    return compiled(load_spec(file))
+
+
+def load_spec(file: Path, fuse: bool = True) -> mujoco.MjSpec:
+    """The same, to be changed before it is compiled.
+
+    Args:
+        file: MJCF or URDF, by its root element.
+        fuse: whether links of URDF that stand still become part of the world, as MuJoCo does by itself.
+
+    Raises:
+        LoadError: as in `load_model`.
+    """
     import mujoco
 
     with quiet_mujoco():
         try:
-            spec = _urdf(file) if is_urdf(file) else mujoco.MjSpec.from_file(str(file))
+            if file.suffix == ".mjz":
+                spec = mujoco.MjSpec.from_zip(str(file))
+            else:
+                spec = _urdf(file, fuse) if is_urdf(file) else mujoco.MjSpec.from_file(str(file))
+            spec.compile()  # fixing the base changes what only a compiled model has names for
+            _fix_base(spec)
+        except (ValueError, TypeError, RuntimeError, OSError, MemoryError, mujoco.FatalError) as error:
+            raise LoadError(one_line(error)) from error
+    return spec
+
+
+def compiled(spec: mujoco.MjSpec) -> mujoco.MjModel:
+    """The model of a spec; raises LoadError when MuJoCo refuses it or its numbers are not finite."""
+    import mujoco
+
+    with quiet_mujoco():
+        try:
             model = spec.compile()
-            if _fix_base(spec):
-                model = spec.compile()
         except (ValueError, TypeError, RuntimeError, OSError, MemoryError, mujoco.FatalError) as error:
             raise LoadError(one_line(error)) from error
     _check_numbers(model)
@@ -84,12 +113,13 @@ def one_line(error: Exception) -> str:
     return " ".join(kept).removeprefix("Error: ") or type(error).__name__
 
 
-def _urdf(file: Path) -> mujoco.MjSpec:
+def _urdf(file: Path, fuse: bool) -> mujoco.MjSpec:
     import mujoco
 
     text = re.sub(r"\bstrippath\s*=\s*([\"']).*?\1", 'strippath="false"', _text(file))
     text = re.sub(r"\bdiscardvisual\s*=\s*([\"']).*?\1", 'discardvisual="true"', text)
     spec = mujoco.MjSpec.from_string(text)
+    spec.compiler.fusestatic = spec.compiler.fusestatic and fuse
     for mesh in spec.meshes:
         if mesh.file:
             mesh.file = str(_mesh_file(mesh.file, file.resolve().parent, spec.meshdir))
@@ -115,7 +145,8 @@ def _fix_base(spec: mujoco.MjSpec) -> bool:
     for joint in free:
         # MuJoCo lets a body pass through its parent, but not through one that stands still.
         for child in joint.parent.bodies:
-            spec.add_exclude(bodyname1=joint.parent.name, bodyname2=child.name)
+            name = BASE_EXCLUDE + child.name
+            spec.add_exclude(name=name, bodyname1=joint.parent.name, bodyname2=child.name)
     for thing in [*free, *(spec.keys if free else [])]:
         spec.delete(thing)
     return bool(free)
