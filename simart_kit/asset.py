@@ -15,6 +15,7 @@ import numpy as np
 from .arrays import FloatArray, IntArray, Mat3, Vec3, frozen_floats, frozen_ints
 from .errors import BadInputError
 from .mesh import Mesh, Note
+from .primitives import Primitive
 
 if TYPE_CHECKING:
     from .kinematics import Positions
@@ -57,6 +58,7 @@ class Joint:
         limits: travel [rad | m]; required for revolute and prismatic, None for the other kinds.
         damping: [N*m*s/rad | N*s/m].
         friction: dry friction, torque or force [N*m | N].
+        armature: inertia added for the solver's sake, as of a rotor [kg*m^2 | kg].
         effort: most that an actuator may exert [N*m | N].
         velocity: highest speed [rad/s | m/s].
         confidence: 0..1, the predictor's own.
@@ -73,6 +75,7 @@ class Joint:
     limits: Limits | None = None
     damping: float = 0.0
     friction: float = 0.0
+    armature: float = 0.0
     effort: float = 50.0
     velocity: float = 2.0
     confidence: float = 1.0
@@ -91,7 +94,7 @@ class Joint:
         if (self.limits is not None) != (self.kind in ("revolute", "prismatic")):
             wanted = "needs limits" if self.limits is None else "takes no limits"
             raise BadInputError(f"{where}: a {self.kind} joint {wanted}")
-        for name in ("damping", "friction", "effort", "velocity"):
+        for name in ("damping", "friction", "armature", "effort", "velocity"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0):
                 raise BadInputError(f"{where}: {name} {value} must be a finite number >= 0")
@@ -118,12 +121,14 @@ class Material:
         density: [kg/m^3].
         friction: sliding friction coefficient.
         restitution: 0 (no bounce) .. 1.
+        youngs_modulus: stiffness of the solid material [Pa].
     """
 
     name: str = "wood"
     density: float = 600.0
     friction: float = 0.5
     restitution: float = 0.1
+    youngs_modulus: float = 1e10
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,10 +155,12 @@ class ConvexMesh:
     Attributes:
         vertices: (V, 3) corners [m].
         faces: (F, 3) outward triangles.
+        primitive: what it is exactly, where that is a primitive; the mesh is then drawn after it.
     """
 
     vertices: FloatArray
     faces: IntArray
+    primitive: Primitive | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "vertices", frozen_floats(self.vertices))
@@ -169,6 +176,7 @@ class Part:
         label: what kind of thing it is, such as "door".
         description: for people.
         material: what it is made of.
+        stated_mass: what a person says that it weighs [kg]; the `mass` modifier keeps to it.
         mass: inertial properties, or None until the `mass` modifier ran.
         collision: convex shapes, empty until the `collision` modifier ran.
     """
@@ -179,6 +187,7 @@ class Part:
     material: Material = Material()
     mass: MassProperties | None = None
     collision: tuple[ConvexMesh, ...] = ()
+    stated_mass: float | None = None
 
     def __post_init__(self) -> None:
         _check_name(f"part '{self.name}'", self.name)
@@ -266,6 +275,10 @@ class Asset:
             known = ", ".join(j.name for j in self.joints) or "none"
             raise BadInputError(f"no joint '{name}': joints are {known}")
         return self._joints_by_name[name]
+
+    def has_joint(self, name: str) -> bool:
+        """Whether there is a joint of this name."""
+        return name in self._joints_by_name
 
     def joint_to(self, part: str) -> Joint | None:
         """The joint that moves a part; None for the root."""

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 
 from .arrays import frozen_bytes
 from .asset import Asset, ConvexMesh
-from .asset_schema import AssetTable
+from .asset_schema import AssetTable, PartTable
 from .errors import BadInputError, SimartKitError
 from .mesh import Image, Mesh, VisualMaterial
 from .stages import Segmentation
@@ -136,7 +136,7 @@ def _asset(table: AssetTable, arrays: dict[str, Any]) -> Asset:
         **optional,
     )
     parts = tuple(
-        replace(row.value(), collision=_collision(index, row.collision_shapes, arrays))
+        replace(row.value(), collision=_collision(row, index, arrays))
         for index, row in enumerate(table.parts)
     )
     return table.asset(mesh, arrays["face_part"], parts)
@@ -151,6 +151,10 @@ def _with_images(material: VisualMaterial, index: int, arrays: dict[str, Any]) -
     return replace(material, **images)
 
 
-def _collision(index: int, count: int, arrays: dict[str, Any]) -> tuple[ConvexMesh, ...]:
-    prefixes = [f"collision_{index}_{number}" for number in range(count)]
-    return tuple(ConvexMesh(arrays[f"{p}_vertices"], arrays[f"{p}_faces"]) for p in prefixes)
+def _collision(row: PartTable, index: int, arrays: dict[str, Any]) -> tuple[ConvexMesh, ...]:
+    numbers = range(row.collision_shapes)
+    prefixes = [f"collision_{index}_{number}" for number in numbers]
+    return tuple(
+        ConvexMesh(arrays[f"{p}_vertices"], arrays[f"{p}_faces"], row.primitive(number))
+        for number, p in zip(numbers, prefixes, strict=True)
+    )

@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from .arrays import FloatArray, IntArray, Mat3, Vec3, frozen_floats
 from .asset import Asset, Joint, JointKind, Limits, MassProperties, Material, Part, Scale
 from .mesh import Mesh, Note, VisualMaterial
+from .primitives import Primitive, PrimitiveKind
 
 Row4 = tuple[float, float, float, float]
 
@@ -24,6 +25,7 @@ class MaterialTable(_Table):
     density: float = Field(gt=0, description="Density [kg/m^3].")
     friction: float = Field(ge=0, description="Sliding friction coefficient.")
     restitution: float = Field(ge=0, le=1, description="0 (no bounce) .. 1.")
+    youngs_modulus: float = Field(default=1e10, gt=0, description="Stiffness of the solid material [Pa].")
 
 
 class MassTable(_Table):
@@ -35,6 +37,21 @@ class MassTable(_Table):
     method: str = Field(description="How the volume was found.")
 
 
+class PrimitiveTable(_Table):
+    """A collision shape that is a box, a cylinder along its own z, or a sphere."""
+
+    shape: int = Field(ge=0, description="Which of the part's collision shapes it is.")
+    kind: PrimitiveKind = Field(description="Type of the primitive.")
+    size: Vec3 = Field(description="Extents along its own axes [m]; diameters of what is round.")
+    asset_T_shape: tuple[Row4, Row4, Row4, Row4] = Field(
+        description="4x4 as rows: pose of its middle in the asset frame at rest."
+    )
+
+    def value(self) -> Primitive:
+        """The primitive."""
+        return Primitive(self.kind, self.size, frozen_floats(self.asset_T_shape))
+
+
 class PartTable(_Table):
     """A rigid piece; `face_part` in parts.npz gives its faces by its position in this list."""
 
@@ -42,13 +59,22 @@ class PartTable(_Table):
     label: str = Field(default="", description="What kind of thing it is.")
     description: str = Field(default="", description="For people.")
     material: MaterialTable = Field(description="What it is made of.")
+    stated_mass: float | None = Field(default=None, gt=0, description="What a person says it weighs [kg].")
     mass: MassTable | None = Field(default=None, description="Inertial properties.")
     collision_shapes: int = Field(default=0, ge=0, description="Number of convex shapes in parts.npz.")
+    primitives: tuple[PrimitiveTable, ...] = Field(
+        default=(), description="Those of its collision shapes that are primitives."
+    )
 
     def value(self) -> Part:
         """The part, without its collision shapes."""
         mass = MassProperties(**self.mass.model_dump()) if self.mass else None
-        return Part(self.name, self.label, self.description, Material(**self.material.model_dump()), mass)
+        material = Material(**self.material.model_dump())
+        return Part(self.name, self.label, self.description, material, mass, stated_mass=self.stated_mass)
+
+    def primitive(self, shape: int) -> Primitive | None:
+        """What a collision shape is exactly; None for a mesh."""
+        return next((row.value() for row in self.primitives if row.shape == shape), None)
 
 
 class LimitsTable(_Table):
@@ -70,6 +96,7 @@ class JointTable(_Table):
     limits: LimitsTable | None = Field(default=None, description="Required for revolute and prismatic.")
     damping: float = Field(default=0.0, ge=0, description="[N*m*s/rad or N*s/m].")
     friction: float = Field(default=0.0, ge=0, description="Dry friction [N*m or N].")
+    armature: float = Field(default=0.0, ge=0, description="Inertia added for solvers [kg*m^2 or kg].")
     effort: float = Field(default=50.0, ge=0, description="Largest torque or force [N*m or N].")
     velocity: float = Field(default=2.0, ge=0, description="Largest speed [rad/s or m/s].")
     confidence: float = Field(default=1.0, ge=0, le=1, description="The predictor's own.")
@@ -163,11 +190,18 @@ class AssetTable(_Table):
 
 
 def _part(part: Part) -> dict[str, object]:
-    row = _fields(part, PartTable, leave_out=("material", "mass", "collision_shapes"))
+    row = _fields(part, PartTable, leave_out=("material", "mass", "collision_shapes", "primitives"))
     row["material"] = _fields(part.material, MaterialTable)
     row["mass"] = _fields(part.mass, MassTable) if part.mass else None
     row["collision_shapes"] = len(part.collision)
+    shapes = [(number, shape.primitive) for number, shape in enumerate(part.collision)]
+    row["primitives"] = [_primitive(number, p) for number, p in shapes if p is not None]
     return row
+
+
+def _primitive(shape: int, primitive: Primitive) -> dict[str, object]:
+    pose = primitive.asset_T_shape.tolist()
+    return {"shape": shape, "kind": primitive.kind, "size": primitive.size, "asset_T_shape": pose}
 
 
 def _fields(value: object, table: type[_Table], leave_out: tuple[str, ...] = ()) -> dict[str, object]:
