@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import BoolArray, Float32Array, FloatArray, IntArray
+from .bounds import bounds_of
+from .topology import without_gaps
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,31 +27,43 @@ class Hits:
     distance: Float32Array
     weights: Float32Array
 
+    def only(self, keep: BoolArray) -> Hits:
+        """Those of some of the rays."""
+        return Hits(self.face[keep], self.distance[keep], self.weights[keep])
+
+    def joined(self, other: Hits) -> Hits:
+        """Those of these rays, then of others."""
+        names = ("face", "distance", "weights")
+        return Hits(*(np.concatenate([getattr(self, n), getattr(other, n)]) for n in names))
+
 
 class Rays:
     """Casts rays at triangles. Embree works in float32, so it is given them centred and of unit size.
 
     Args:
-        triangles: (F, 3, 3) corners.
+        vertices: (V, 3); those that no face uses do not count.
+        faces: (F, 3) vertex indices.
 
     Attributes:
-        center: (3,) middle of their bounding box.
+        center: (3,) middle of the faces' bounding box.
         size: its diagonal; 1 where that is 0.
     """
 
-    def __init__(self, triangles: FloatArray) -> None:
+    def __init__(self, vertices: FloatArray, faces: IntArray) -> None:
         from embreex.mesh_construction import TriangleMesh
         from embreex.rtcore_scene import EmbreeScene
 
-        corners = triangles.reshape(-1, 3) if len(triangles) else np.zeros((1, 3))
-        lower, upper = corners.min(axis=0), corners.max(axis=0)
+        used, corners = without_gaps(faces)
+        points = vertices[used] if len(faces) else np.zeros((1, 3))
+        lower, upper = bounds_of(points)
         self.center = (lower + upper) / 2
         self.size = float(np.linalg.norm(upper - lower)) or 1.0
-        self._empty = not len(triangles)
+        self._empty = not len(faces)
         self._scene: Any = EmbreeScene()
         if not self._empty:
-            # Kept, for the scene does not own it.
-            self._mesh = TriangleMesh(self._scene, self._local(triangles))
+            # Kept, for the scene does not own it. Embreex takes its time for each number that it is given:
+            # shared corners save half of it.
+            self._mesh = TriangleMesh(self._scene, self._local(points), corners.astype(np.int32))
 
     def first(self, origins: FloatArray, directions: FloatArray) -> tuple[IntArray, FloatArray]:
         """First triangle that each ray meets, from either side.

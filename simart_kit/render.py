@@ -68,7 +68,7 @@ def render(
 def face_ids(mesh: Mesh, camera: Camera, width: int, height: int) -> IntArray:
     """(height, width) int32 index of the face seen in the middle of each pixel, -1 for none."""
     mesh = with_normals(mesh)
-    caster, look = Rays(mesh.triangles), Appearance(mesh)
+    caster, look = Rays(mesh.vertices, mesh.faces), Appearance(mesh)
     frame = Frame(camera, width, height)
     tops = range(0, height, _ROWS_AT_ONCE)
     bands = [range(top, min(top + _ROWS_AT_ONCE, height)) for top in tops]

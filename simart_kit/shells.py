@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray
+from .bounds import bounds_of
 from .topology import connected, edges, stable_order, touching, unique_rows, weld, without_gaps
 from .triangles import areas
 
@@ -61,6 +62,12 @@ class Shells:
         return np.split(self.vertices[vertex], np.searchsorted(shell, np.arange(1, self.count)))
 
 
+def signed_volumes(triangles: FloatArray) -> FloatArray:
+    """(F,) volumes between triangles (F, 3, 3) and the origin; a closed surface holds their sum."""
+    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = triangles.transpose(1, 2, 0)
+    return np.asarray((ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)) / 6)
+
+
 def find_shells(vertices: FloatArray, faces: IntArray) -> Shells:
     """Cut the surface of (F, 3) faces into shells.
 
@@ -95,7 +102,8 @@ def _welded(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray
     used, compact = without_gaps(faces)
     points = vertices[used]
     relative, least = WELD_TOLERANCE
-    ids = weld(points, max(relative * float(np.linalg.norm(np.ptp(points, axis=0))), least))
+    lower, upper = bounds_of(points)
+    ids = weld(points, max(relative * float(np.linalg.norm(upper - lower)), least))
     first = np.zeros(int(ids.max()) + 1, dtype=np.int64)
     first[ids[::-1]] = np.arange(len(ids))[::-1]  # the last one written stays: the first of each
     corners = ids[compact]
@@ -130,15 +138,18 @@ def _sheets(edge: IntArray, way: IntArray) -> tuple[IntArray, BoolArray]:
 
 def _closed(edge: IntArray, way: IntArray, label: IntArray) -> BoolArray:
     """(S,) whether the (F, 3) edges of a label's faces are walked as often one way as the other."""
-    _, face_edge = unique_rows(np.column_stack([np.repeat(label, 3), edge.ravel()]))
-    unbalanced = np.bincount(face_edge, way.ravel()) != 0
-    count = int(label.max(initial=-1)) + 1
-    return np.asarray(np.bincount(np.repeat(label, 3), unbalanced[face_edge], count) == 0)
+    count, span = int(label.max(initial=-1)) + 1, int(edge.max(initial=-1)) + 1
+    order, ordered = stable_order((label[:, None] * span + edge).ravel())
+    new = np.ones(len(ordered), dtype=np.bool_)
+    new[1:] = ordered[1:] != ordered[:-1]
+    start = np.flatnonzero(new)
+    unbalanced = np.add.reduceat(way.ravel()[order], start) != 0
+    return np.asarray(np.bincount(ordered[start[unbalanced]] // max(span, 1), minlength=count) == 0)
 
 
 def _bounding(triangles: FloatArray, label: IntArray) -> BoolArray:
     """(S,) whether the (F, 3, 3) triangles of a label enclose anything, if they are closed."""
-    volumes = np.einsum("ni,ni->n", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6
     count = int(label.max(initial=-1)) + 1
+    volume = np.bincount(label, signed_volumes(triangles), count)
     area = np.bincount(label, areas(triangles), count)
-    return np.asarray(np.abs(np.bincount(label, volumes, count)) > _FLAT * area**1.5)
+    return np.asarray(np.abs(volume) > _FLAT * area**1.5)

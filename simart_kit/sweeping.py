@@ -8,9 +8,10 @@ import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray
 from .asset import Joint
+from .bounds import bounds_of, triangle_bounds
 from .kinematics import joint_motion
 from .rays import Rays
-from .shells import find_shells
+from .shells import find_shells, signed_volumes
 from .triangles import areas, unit_normals
 
 Motion = Callable[[float], FloatArray]
@@ -25,22 +26,25 @@ class Sweep:
     """A moving surface and what stays.
 
     Args:
-        moving: (F, 3, 3) triangles at rest.
-        still: (G, 3, 3) triangles.
+        vertices: (V, 3) of both, at rest.
+        moving: (F, 3) vertex indices of the faces that move, F > 0.
+        still: (G, 3) those of the faces that do not.
         seed: of the sampling.
     """
 
-    def __init__(self, moving: FloatArray, still: FloatArray, seed: int = 0) -> None:
+    def __init__(self, vertices: FloatArray, moving: IntArray, still: IntArray, seed: int = 0) -> None:
         rng = np.random.default_rng(seed)
-        reach = float(np.linalg.norm(np.ptp(moving.reshape(-1, 3), axis=0)))
-        lower, upper = moving.min(axis=(0, 1)) - reach, moving.max(axis=(0, 1)) + reach
-        near = ((still.max(axis=1) >= lower) & (still.min(axis=1) <= upper)).all(axis=1)
+        mine, others = vertices[moving], vertices[still]
+        lower, upper = bounds_of(mine.reshape(-1, 3))
+        reach = float(np.linalg.norm(upper - lower))
+        lows, highs = triangle_bounds(others)
+        near = ((highs >= lower - reach) & (lows <= upper + reach)).all(axis=1)
         still = still[near]
         self._deep = _DEEP * reach
-        self._still, self._moving = _Surface(still), _Surface(moving)
+        self._still, self._moving = _Surface(vertices, still), _Surface(vertices, moving)
         # What lies inside the other at rest, as hinge knuckles do, only leaves it: not counted.
-        self._points = self._still.outside(sample_surface(moving, POINTS, rng))
-        self._others = self._moving.outside(sample_surface(still, POINTS, rng))
+        self._points = self._still.outside(sample_surface(mine, POINTS, rng))
+        self._others = self._moving.outside(sample_surface(others[near], POINTS, rng))
 
     def blocked(self, motion: Motion, stops: FloatArray) -> FloatArray:
         """(K,) share of points that have passed through the other surface on the way to each stop.
@@ -69,24 +73,20 @@ class Sweep:
         return float(stops[count - 1]) if count else 0.0
 
 
-def free_range(
-    joint: Joint, moving: FloatArray, still: FloatArray, steps: int, seed: int = 0
-) -> tuple[float, float]:
+def free_range(joint: Joint, sweep: Sweep, steps: int) -> tuple[float, float]:
     """How far a joint can go to either side within its limits [rad | m].
 
     Args:
         joint: with limits.
-        moving: (F, 3, 3) triangles that it moves, at rest, in its frame.
-        still: (G, 3, 3) triangles of all else.
+        sweep: of what it moves, and all else, in its frame.
         steps: stops on the way to each limit.
-        seed: of the sampling.
 
     Raises:
         ValueError: the joint has no limits.
     """
     if joint.limits is None:
         raise ValueError(f"joint '{joint.name}' has no limits")
-    paths, origin = Sweep(moving, still, seed), np.array(joint.origin)
+    origin = np.array(joint.origin)
 
     def motion(position: float) -> FloatArray:
         matrix = joint_motion(joint, position)
@@ -94,20 +94,20 @@ def free_range(
         return matrix
 
     lower, upper = (
-        paths.free(motion, end, steps) if end else 0.0 for end in (joint.limits.lower, joint.limits.upper)
+        sweep.free(motion, end, steps) if end else 0.0 for end in (joint.limits.lower, joint.limits.upper)
     )
     return lower, upper
 
 
 class _Surface:
-    """Triangles to run into: connected pieces, of which those that are closed have an inside."""
+    """Faces to run into: connected pieces, of which those that are closed have an inside."""
 
-    def __init__(self, triangles: FloatArray) -> None:
-        shells = find_shells(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
-        self.rays = Rays(shells.triangles)
-        self.normals = unit_normals(shells.triangles)
-        a, b, c = shells.triangles.transpose(1, 0, 2)
-        volumes = np.bincount(shells.face_shell, np.einsum("fi,fi->f", a, np.cross(b, c)), shells.count)
+    def __init__(self, vertices: FloatArray, faces: IntArray) -> None:
+        shells = find_shells(vertices, faces)
+        triangles = shells.triangles
+        self.rays = Rays(shells.vertices, shells.faces)
+        self.normals = unit_normals(triangles)
+        volumes = np.bincount(shells.face_shell, signed_volumes(triangles), shells.count)
         self._piece = shells.face_shell
         # Wound inward, it may be the inside of a wall: then both ways count.
         self._solid = (shells.closed & (volumes > 0))[shells.face_shell]

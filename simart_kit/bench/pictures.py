@@ -132,7 +132,7 @@ def _camera(truth: Figure) -> Camera:
     shown = np.zeros(len(cameras), dtype=np.int64)
     if truth.moves.any():
         for mesh in (truth.closed, truth.opened) if truth.travels else (truth.closed,):
-            caster = Rays(mesh.triangles)
+            caster = Rays(mesh.vertices, mesh.faces)
             shown += [_moving_pixels(caster, truth, camera) for camera in cameras]
     return next(c for c, s in zip(cameras, shown, strict=True) if _BETTER * s >= shown.max())
 

@@ -97,7 +97,7 @@ class Lighting:
         first = points.number == 0
         for k in range(_SKY_RAYS):
             # A normal plus a point of the unit sphere is distributed with the cosine.
-            on = np.flatnonzero(first | (k == 0))
+            on = first if k else slice(None)
             towards = normalized(points.flat[on] * np.float32(1.001) + sphere[place[on], k])
             seen[on, 0] += ~self.caster.blocked(start[on], towards, self.reach)
         lit = points.flat @ self.key > 0

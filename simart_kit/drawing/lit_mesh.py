@@ -39,10 +39,10 @@ class LitMesh:
     ) -> None:
         self._frame, self._ground = frame, ground
         self._look = Appearance(mesh, paint)
-        self._caster = Rays(mesh.triangles) if caster is None else caster
+        self._caster = Rays(mesh.vertices, mesh.faces) if caster is None else caster
         self._surface = look_alike(mesh, paint)
         opaque = opaque_faces(mesh)
-        shadows = self._caster if opaque.all() else Rays(mesh.triangles[opaque])
+        shadows = self._caster if opaque.all() else Rays(mesh.vertices, mesh.faces[opaque])
         self._lighting = Lighting.of(shadows, frame.camera)
 
     def picture(self) -> FloatArray:
@@ -54,11 +54,12 @@ class LitMesh:
     def _band(self, rows: range) -> FloatArray:
         # Rows above and below are cast too, for light is averaged over tiles: bands then join without a seam.
         wide = range(max(0, rows.start - TILE), min(self._frame.height, rows.stop + TILE))
-        rays = first = PixelRays.adaptive(self._frame, wide, self._caster, self._surface)
+        first, hits = PixelRays.adaptive(self._frame, wide, self._caster, self._surface)
         result = np.zeros((len(first.pixel), 4), dtype=np.float32)
-        at = np.arange(len(first.pixel))
-        for _ in range(LAYERS if self._look.translucent else 1):
-            hits = self._caster.hits(rays.origins, rays.directions)
+        rays, at = first, np.arange(len(first.pixel))
+        for layer in range(LAYERS if self._look.translucent else 1):
+            if layer:
+                hits = self._caster.hits(rays.origins, rays.directions)
             result[at] += (1 - result[at, 3:]) * self._layer(rays, hits)
             on = np.flatnonzero((hits.face >= 0) & (result[at, 3] < 0.98))
             rays, at = rays.beyond(hits, on, 1e-5 * self._caster.size), at[on]

@@ -50,16 +50,21 @@ class PixelRays:
         return cls._through(frame, rows, pixel, np.zeros_like(pixel), np.array([[0.5, 0.5]]))
 
     @classmethod
-    def adaptive(cls, frame: Frame, rows: range, caster: Rays, surface: IntArray) -> PixelRays:
-        """One ray a pixel, and four where a neighbour shows another of the (F,) `surface` ids of faces."""
+    def adaptive(cls, frame: Frame, rows: range, caster: Rays, surface: IntArray) -> tuple[PixelRays, Hits]:
+        """One ray a pixel, and four where a neighbour shows another of the (F,) `surface` ids of faces.
+
+        Returns:
+            The rays, and what they meet.
+        """
         single = cls.single(frame, rows)
-        face = caster.hits(single.origins, single.directions).face
-        shown = np.where(face >= 0, surface[face], -1).reshape(len(rows), frame.width)
+        hits = caster.hits(single.origins, single.directions)
+        shown = np.where(hits.face >= 0, surface[hits.face], -1).reshape(len(rows), frame.width)
         border = _borders(shown).ravel()
         pixel = np.repeat(np.flatnonzero(border), len(SUBPIXELS))
         number = np.tile(np.arange(len(SUBPIXELS)), int(border.sum()))
         several = cls._through(frame, rows, pixel, number, SUBPIXELS[number])
-        return single.only(~border).joined(several)
+        met = caster.hits(several.origins, several.directions)
+        return single.only(~border).joined(several), hits.only(~border).joined(met)
 
     @classmethod
     def _through(

@@ -51,7 +51,7 @@ def _moving_panels(asset: Asset) -> dict[str, Image.Image]:
     marks = {name: _marks(posable, fraction) for name, fraction in _FRACTIONS.items() if fraction}
     shown = [m.vertices for m in meshes.values()]
     shown += [stroke.points for strokes in marks.values() for stroke, _ in strokes]
-    casters = {name: Rays(meshes[name].triangles) for name in ("closed", "open")}
+    casters = {name: Rays(meshes[name].vertices, meshes[name].faces) for name in ("closed", "open")}
     camera = _camera(casters["closed"], casters["open"], np.concatenate(shown))
     ground = min(float(m.bounds[0, 2]) for m in meshes.values())
     panels = {"closed": _view(meshes["closed"], camera, ground, None, casters["closed"])}
@@ -63,7 +63,7 @@ def _moving_panels(asset: Asset) -> dict[str, Image.Image]:
 
 def _static_panels(asset: Asset) -> dict[str, Image.Image]:
     mesh, views = PosableMesh.of(asset).mesh, {}
-    caster = Rays(mesh.triangles)
+    caster = Rays(mesh.vertices, mesh.faces)
     for name, azimuth in (("front left", _AZIMUTHS[0]), ("back right", _AZIMUTHS[2])):
         camera = framed(mesh.vertices, azimuth, _ELEVATION, aspect=PANEL[0] / PANEL[1])
         views[name] = _view(mesh, camera, float(mesh.bounds[0, 2]), None, caster)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray
+from simart_kit.arrays import BoolArray, FloatArray
+from simart_kit.bounds import triangle_bounds
 
 from .scene import Scene
 
@@ -44,20 +45,23 @@ class Contacts:
 
     def _one_way(self, a: int, b: int) -> float:
         """Points of a against triangles of b, both only where the other's box is near."""
-        points = self._scene.triangles[self._faces[a]]
-        points = np.concatenate([points.reshape(-1, 3), points.mean(axis=1)])
-        box = self._scene.boxes[b]
-        inside = ((points >= box.lower - self._reach) & (points <= box.upper + self._reach)).all(axis=1)
-        points = _spread(points[inside], _MOST_POINTS)
+        corners = self._scene.triangles[self._faces[a]]
+        points = np.concatenate([corners.reshape(-1, 3), corners.sum(axis=1) / 3])
+        points = _spread(points[self._near(b, points, points)], _MOST_POINTS)
         triangles = self._scene.triangles[self._faces[b]]
-        box = self._scene.boxes[a]
-        low, high = triangles.min(axis=1), triangles.max(axis=1)
-        close = ((low <= box.upper + self._reach) & (high >= box.lower - self._reach)).all(axis=1)
-        triangles = _spread(triangles[close], _MOST_TRIANGLES)
+        triangles = _spread(triangles[self._near(a, *triangle_bounds(triangles))], _MOST_TRIANGLES)
         if not len(points) or not len(triangles):
             return np.inf
         nearest = smallest_distance(points, triangles, self._reach)
         return nearest if nearest <= self._reach else np.inf
+
+    def _near(self, piece: int, lower: FloatArray, upper: FloatArray) -> BoolArray:
+        """(N,) which boxes, of corners (N, 3), come within reach of a piece's own."""
+        box, near = self._scene.boxes[piece], np.ones(len(lower), dtype=np.bool_)
+        for axis in range(3):
+            near &= lower[:, axis] <= box.upper[axis] + self._reach
+            near &= upper[:, axis] >= box.lower[axis] - self._reach
+        return near
 
 
 def smallest_distance(points: FloatArray, triangles: FloatArray, reach: float) -> float:

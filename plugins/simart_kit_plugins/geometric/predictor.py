@@ -139,7 +139,8 @@ def _hardware(mesh: Mesh, scene: Scene, body: int) -> Scene | None:
         return None
     _, labels = np.unique(pieces[faces], return_inverse=True)
     return Scene(
-        whole.triangles[faces],
+        whole.vertices,
+        whole.faces[faces],
         labels,
         int(labels.max()) + 1,
         whole.aligned_from_asset,
@@ -167,7 +168,7 @@ def _carrier(contacts: Contacts, body: int, part: int, moving: list[int]) -> int
 def _deep_enough(scene: Scene, view: View, hinge: Candidate) -> Candidate:
     """The hinge in the middle, front or back of the panel's thickness: the first that opens most freely."""
     mine = scene.labels == view.part
-    sweep = Sweep(scene.triangles[mine] @ view.axes.T, scene.triangles[~mine] @ view.axes.T)
+    sweep = Sweep(scene.vertices @ view.axes.T, scene.faces[mine], scene.faces[~mine])
     stops = np.linspace(0.05, 1.0, 20) * hinge.upper
     lower, upper = _thickness(scene, view, hinge)
     depths = ((lower + upper) / 2, upper, lower)

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from simart_kit.arrays import FloatArray, IntArray
+from simart_kit.bounds import bounds_of, triangle_bounds
 from simart_kit.kinematics import rotation
 from simart_kit.mesh import Mesh
 from simart_kit.rays import Rays
@@ -56,10 +57,11 @@ class Box:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Triangles in the aligned frame, grouped into pieces.
+    """Faces in the aligned frame, grouped into pieces.
 
     Attributes:
-        triangles: (F, 3, 3) corners; the object's diagonal is 1.
+        vertices: (V, 3); the object's diagonal is 1.
+        faces: (F, 3) vertex indices.
         labels: (F,) piece of each face, 0..count-1.
         count: number of pieces.
         aligned_from_asset: (3, 3) rotation about the vertical.
@@ -67,7 +69,8 @@ class Scene:
         origin: (3,) point of the asset frame that is the aligned frame's origin [m].
     """
 
-    triangles: FloatArray
+    vertices: FloatArray
+    faces: IntArray
     labels: IntArray
     count: int
     aligned_from_asset: FloatArray
@@ -75,24 +78,29 @@ class Scene:
     origin: FloatArray
 
     @cached_property
+    def triangles(self) -> FloatArray:
+        """(F, 3, 3) corners."""
+        return np.asarray(self.vertices[self.faces])
+
+    @cached_property
     def rays(self) -> Rays:
-        """All triangles, for casting."""
-        return Rays(self.triangles)
+        """All faces, for casting."""
+        return Rays(self.vertices, self.faces)
 
     @cached_property
     def boxes(self) -> tuple[Box, ...]:
         """The bounding box of each piece."""
         lower = np.full((self.count, 3), np.inf)
         upper = np.full((self.count, 3), -np.inf)
-        np.minimum.at(lower, self.labels, self.triangles.min(axis=1))
-        np.maximum.at(upper, self.labels, self.triangles.max(axis=1))
+        lows, highs = triangle_bounds(self.triangles)
+        np.minimum.at(lower, self.labels, lows)
+        np.maximum.at(upper, self.labels, highs)
         return tuple(Box(low, high) for low, high in zip(lower, upper, strict=True))
 
     @cached_property
     def box(self) -> Box:
         """The bounding box of everything."""
-        corners = self.triangles.reshape(-1, 3)
-        return Box(corners.min(axis=0), corners.max(axis=0))
+        return Box(*bounds_of(self.triangles.reshape(-1, 3)))
 
     @cached_property
     def areas(self) -> FloatArray:
@@ -131,8 +139,9 @@ def make_scene(mesh: Mesh, labels: IntArray) -> Scene:
     """Put a mesh and its (F,) labels 0..N-1 into the aligned frame."""
     turn = rotation(np.array([0.0, 0.0, -yaw(mesh)]))
     origin = mesh.bounds.mean(axis=0)
-    triangles = (mesh.triangles - origin) @ turn.T / mesh.diagonal
-    return Scene(triangles, np.asarray(labels), int(labels.max()) + 1, turn, mesh.diagonal, origin)
+    vertices = (mesh.vertices - origin) @ turn.T / mesh.diagonal
+    count = int(labels.max()) + 1
+    return Scene(vertices, mesh.faces, np.asarray(labels), count, turn, mesh.diagonal, origin)
 
 
 def yaw(mesh: Mesh) -> float:

@@ -11,6 +11,7 @@ from pydantic import Field
 import simart_kit
 from simart_kit import Modifier, hookimpl
 from simart_kit.arrays import vec3
+from simart_kit.topology import unique_rows
 
 # Narrow: a door that stands ajar must not pull the cabinet's own direction towards it.
 _SAME_DIRECTION = np.deg2rad(0.5)
@@ -69,11 +70,11 @@ def main_directions(normals: FloatArray, areas: FloatArray, share: float) -> Flo
     # Opposite faces share a direction: fold onto the half space where the largest component is positive.
     largest = np.take_along_axis(normals, np.abs(normals).argmax(axis=1)[:, None], axis=1)
     folded = normals * np.sign(largest)
-    _, cell = np.unique(np.round(folded / _SAME_DIRECTION).astype(np.int64), axis=0, return_inverse=True)
-    weights = np.bincount(cell.reshape(-1), areas)
+    _, cell = unique_rows(np.round(folded / _SAME_DIRECTION).astype(np.int64))
+    weights = np.bincount(cell, areas)
     found = [np.array([0.0, 0.0, 1.0])]
     for fullest in np.argsort(-weights, kind="stable")[: int(2 / share)]:
-        seed = folded[np.flatnonzero(cell.reshape(-1) == fullest)[0]]
+        seed = folded[np.flatnonzero(cell == fullest)[0]]
         near = folded @ seed >= np.cos(_SAME_DIRECTION)
         if areas[near].sum() >= share * areas.sum():
             mean = areas[near] @ folded[near]

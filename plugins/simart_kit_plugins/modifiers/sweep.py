@@ -60,11 +60,12 @@ class Sweep(Modifier):
 
     def _free(self, asset: Asset, joint: Joint) -> tuple[float, float]:
         """Free range within the joint's limits [rad | m]."""
-        from simart_kit.sweeping import free_range
+        from simart_kit import sweeping
 
         moving = np.isin(asset.face_part, [asset.part_index(name) for name in carried(asset, joint.child)])
-        triangles = asset.mesh.triangles
-        return free_range(joint, triangles[moving], triangles[~moving], self.options.steps, self.seed)
+        mesh = asset.mesh
+        sweep = sweeping.Sweep(mesh.vertices, mesh.faces[moving], mesh.faces[~moving], self.seed)
+        return sweeping.free_range(joint, sweep, self.options.steps)
 
 
 def _range(joint: Joint, lower: float, upper: float) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from simart_kit.sweeping import free_range
+from simart_kit.sweeping import Sweep, free_range
 
 from .proposals import Proposal, overlap
 
@@ -50,7 +50,7 @@ def pooled(mesh: Mesh, first: Sequence[Proposal], second: Sequence[Proposal]) ->
         free = proposal.faces & ~taken
         if areas[free].sum() < (1 - _LOST) * areas[proposal.faces].sum() or not free.any():
             continue
-        if _stuck(mesh, proposal.joint, free):
+        if proposal.joint.limits and _stuck(proposal.joint, _sweep(mesh, free)):
             continue
         place["second", k] = len(kept)
         kept.append(replace(proposal, faces=free))
@@ -61,16 +61,23 @@ def pooled(mesh: Mesh, first: Sequence[Proposal], second: Sequence[Proposal]) ->
 def _freer(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
     """The first proposal, with the other's joint where its own is stuck and the other's is not."""
     alike = one.joint.kind == other.joint.kind and np.dot(one.joint.axis, other.joint.axis) > _ALIKE
-    if not alike and _stuck(mesh, one.joint, one.faces) and not _stuck(mesh, other.joint, one.faces):
+    if alike or one.joint.limits is None:
+        return one
+    sweep = _sweep(mesh, one.faces)
+    if _stuck(one.joint, sweep) and not _stuck(other.joint, sweep):
         return replace(one, joint=other.joint)
     return one
 
 
-def _stuck(mesh: Mesh, joint: Joint, faces: BoolArray) -> bool:
+def _sweep(mesh: Mesh, faces: BoolArray) -> Sweep:
+    return Sweep(mesh.vertices, mesh.faces[faces], mesh.faces[~faces])
+
+
+def _stuck(joint: Joint, sweep: Sweep) -> bool:
     """Whether a joint with limits is blocked both ways almost at once."""
     if joint.limits is None:
         return False
-    lower, upper = free_range(joint, mesh.triangles[faces], mesh.triangles[~faces], _STEPS)
+    lower, upper = free_range(joint, sweep, _STEPS)
     return upper - lower < _FREE * (joint.limits.upper - joint.limits.lower)
 
 

@@ -47,7 +47,7 @@ def _share(articulation: Articulation, link: int, seed: int) -> float | None:
     ends = [end for end in way(joint) if end != 0.0]
     if not ends or not moving.any():
         return None
-    sweep = Sweep(articulation.triangles[moving], articulation.triangles[~moving], seed)
+    sweep = Sweep(articulation.vertices, articulation.faces[moving], articulation.faces[~moving], seed)
 
     def posed(position: float) -> FloatArray:
         return motion(joint, position)

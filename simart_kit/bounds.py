@@ -1,0 +1,18 @@
+"""Bounding boxes of points and of triangles, many times as fast as reducing along an axis of three."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .arrays import FloatArray
+
+
+def bounds_of(points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Lower and upper corner (3,) of (N, 3) points, N > 0."""
+    return np.array([c.min() for c in points.T]), np.array([c.max() for c in points.T])
+
+
+def triangle_bounds(triangles: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Lower and upper corners (F, 3) of each of the triangles (F, 3, 3)."""
+    a, b, c = triangles.transpose(1, 0, 2)
+    return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
