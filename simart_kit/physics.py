@@ -1,45 +1,40 @@
-"""The material table, and mass properties from geometry."""
+"""Mass properties from geometry and materials."""
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+
+import numpy as np
+
 from .arrays import FloatArray, IntArray, mat3, vec3
-from .asset import MassProperties, Material
+from .asset import MassProperties
+from .materials import DEFAULT_MATERIAL as DEFAULT_MATERIAL
+from .materials import MATERIALS as MATERIALS
+from .materials import Build
 from .moments import inertia
 from .solids import THICKNESS, Solid, solid
 
-DEFAULT_MATERIAL = "wood"
 MIN_MASS = 0.001  # [kg]; lighter bodies make simulators stiff
-
-# Typical values of engineering tables; densities are of the solid material.
-MATERIALS: dict[str, Material] = {
-    m.name: m
-    for m in (
-        Material("wood", 600.0, 0.5, 0.2),
-        Material("mdf", 750.0, 0.5, 0.2),
-        Material("glass", 2500.0, 0.4, 0.3),
-        Material("steel", 7850.0, 0.5, 0.3),
-        Material("aluminium", 2700.0, 0.45, 0.3),
-        Material("plastic", 1050.0, 0.4, 0.3),
-        Material("ceramic", 2300.0, 0.45, 0.2),
-        Material("rubber", 1100.0, 0.9, 0.6),
-        Material("fabric", 300.0, 0.6, 0.05),
-        Material("stone", 2600.0, 0.6, 0.2),
-    )
-}
 
 
 def mass_properties(
-    vertices: FloatArray, faces: IntArray, density: float = 600.0, thickness: float = THICKNESS
+    vertices: FloatArray,
+    faces: IntArray,
+    density: float = 600.0,
+    thickness: float = THICKNESS,
+    solid_up_to: float = math.inf,
 ) -> MassProperties:
-    """Mass, centre and inertia of the material that a surface bounds; see `solids.solid` for open surfaces.
+    """Mass, centre and inertia of the material that a surface bounds; see `solids.solid` for the rules.
 
     Args:
         vertices: (V, 3) [m].
         faces: (F, 3) triangles, closed or not, wound either way.
         density: [kg/m^3].
-        thickness: of boards drawn as a single surface [m].
+        thickness: of boards drawn as a single surface, and of walls [m].
+        solid_up_to: mean thickness beyond which closed shells have walls only [m].
     """
-    return weigh(solid(vertices, faces, thickness), density)
+    return weigh(solid(vertices, faces, Build(thickness, solid_up_to)), density)
 
 
 def weigh(body: Solid, density: float) -> MassProperties:
@@ -49,3 +44,9 @@ def weigh(body: Solid, density: float) -> MassProperties:
     mass = max(mass, MIN_MASS)
     center, unit_inertia = inertia(body.moments)
     return MassProperties(mass, vec3(center), mat3(mass * unit_inertia), method)
+
+
+def as_stated(properties: MassProperties, mass: float) -> MassProperties:
+    """The same body with a mass that a person stated [kg]; the inertia follows."""
+    scaled = mat3(np.array(properties.inertia) * (mass / properties.mass))
+    return replace(properties, mass=mass, inertia=scaled, method=f"{properties.method}, as stated")
