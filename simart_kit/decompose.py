@@ -1,82 +1,202 @@
-"""A part as a few convex shapes, along the pieces that its surface already has."""
+"""A part as a few convex shapes: the ladder from primitives to voxels."""
 
 from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .arrays import FloatArray, IntArray
 from .asset import ConvexMesh
-from .hulls import MIN_THICKNESS, convex_hull, volume
+from .closing import Piece, hulled, pieces_of
+from .convex_decomposition import DecompositionError, Tool, run_tool
+from .cutting import WORK, cut, cut_tight, is_loose
+from .fitting import fitted
+from .grouping import grouped
+from .hulls import convex_hull, hull_of
+from .mending import mended
 from .shells import find_shells
+from .triangles import unit_normals
 
-LOOSE = 1.05  # a hull is loose when it holds this many times the volume of the pieces' hulls
-_MOST_CANDIDATES = 256
+if TYPE_CHECKING:
+    from manifold3d import Manifold
+
+_LEAST = 0.003  # of the hull of all, times how loose hulls may be: what one may hold besides its solid
+_WHEEL = 1.25  # times its solid: what the hull of something round may hold
+_FINER = 3  # times the shapes: pieces to cut first, which are then put together again
+_LARGE = 0.01  # of the hull of all: excess from which on a piece is not joined with others
+_HOPELESS = 1.3  # times its solid: what a hull may hold when cutting has ended, before a tool is asked
+_WORTH_A_TOOL = 0.01  # of the hull of all: excess from which on a tool is asked
+_MOST_HOLDERS = 64
+_INSIDE = 1e-4  # [m] that something hidden in a shape may look out of it
 
 
-def decompose(
-    vertices: FloatArray, faces: IntArray, max_shapes: int = 32, max_vertices: int = 64
-) -> tuple[ConvexMesh, ...]:
-    """One hull if it fits, else a hull for every shell, so that a cabinet made of boards stays hollow.
+@dataclass(frozen=True)
+class Budget:
+    """What a decomposition may cost.
 
-    A hollow part that is one shell gets one hull, which fills it.
+    Attributes:
+        shapes: of a part.
+        vertices: of a shape; at least 8.
+        tight: a shape is when it holds less than so many times the solid in it.
+        work: see `cutting.WORK`.
+        tool: for what cutting cannot part.
+        tool_seconds: that the tool may take; 0 never runs it.
+    """
+
+    shapes: int = 32
+    vertices: int = 64
+    tight: float = 1.05
+    work: int = WORK
+    tool: Tool = "vhacd"
+    tool_seconds: float = 6.0
+
+
+@dataclass(frozen=True, eq=False)
+class Decomposition:
+    """Convex shapes of a part.
+
+    Attributes:
+        shapes: at least one.
+        problem: why the tool gave nothing; "" when it did, or was not asked.
+        tool_seconds: that the tool took.
+        work: faces that were cut.
+    """
+
+    shapes: tuple[ConvexMesh, ...]
+    problem: str = ""
+    tool_seconds: float = 0.0
+    work: int = 0
+
+
+def decompose(vertices: FloatArray, faces: IntArray, budget: Budget = Budget()) -> Decomposition:
+    """The tightest shapes that a budget allows, by a ladder.
+
+    One shape if the whole is convex. Else one for each shell: a primitive where that fits, or its hull where
+    it is filled. Else the shell is cut along its own planes, and what then still is loose goes to the tool.
 
     Args:
         vertices: (V, 3) [m].
         faces: (F, 3) of the part.
-        max_shapes: shells that lie close together share a hull when there are more.
-        max_vertices: of each hull.
+        budget: what it may cost.
     """
-    whole = convex_hull(vertices[np.unique(faces)], max_vertices)
-    pieces = [p for p in find_shells(vertices, faces).points() if len(p)]
-    if len(pieces) < 2:
-        return (whole,)
-    groups = _grouped([np.array([p.min(axis=0), p.max(axis=0)]) for p in pieces], max_shapes)
-    hulls = tuple(convex_hull(np.concatenate([pieces[i] for i in g]), max_vertices) for g in groups)
-    return hulls if volume(whole) > LOOSE * sum(map(volume, hulls)) else (whole,)
-
-
-def _grouped(boxes: list[FloatArray], most: int) -> list[list[int]]:
-    """Indices of (2, 3) boxes in `most` groups or fewer, joining those that grow least by it."""
-    groups, bounds = _candidates(np.array(boxes))
-    growth = np.array([_growth(bounds, i) for i in range(len(groups))])
-    for _ in range(len(groups) - most):
-        one, two = sorted(int(i) for i in np.unravel_index(growth.argmin(), growth.shape))
-        groups[one] += groups[two]
-        groups[two] = []
-        bounds[one] = _union(bounds[one], bounds[two])
-        growth[one] = growth[:, one] = np.where(np.isinf(growth[one]), np.inf, _growth(bounds, one))
-        growth[two] = growth[:, two] = np.inf
-    return [sorted(group) for group in groups if group]
-
-
-def _candidates(boxes: FloatArray) -> tuple[list[list[int]], FloatArray]:
-    """The largest boxes, each with the smaller ones that have their middle nearest to its own."""
-    from scipy.spatial import cKDTree
-
-    size = np.linalg.norm(boxes[:, 1] - boxes[:, 0], axis=1)
-    order = np.argsort(-size, kind="stable")
-    large, small = np.sort(order[:_MOST_CANDIDATES]), np.sort(order[_MOST_CANDIDATES:])
-    groups, bounds = [[int(i)] for i in large], boxes[large].copy()
-    nearest = np.asarray(cKDTree(boxes[large].mean(axis=1)).query(boxes[small].mean(axis=1))[1])
-    for box, group in zip(small.tolist(), nearest.tolist(), strict=True):
-        groups[group].append(box)
-        bounds[group] = _union(bounds[group], boxes[box])
-    return groups, bounds
-
-
-def _growth(bounds: FloatArray, index: int) -> FloatArray:
-    """(N,) volume that joining each of (N, 2, 3) boxes with one of them adds [m^3]; infinite for itself."""
-    joined = _volumes(_union(bounds, bounds[index]))
-    growth = joined - _volumes(bounds) - _volumes(bounds[index])
-    growth[index] = np.inf
-    return np.asarray(growth)
-
-
-def _union(one: FloatArray, two: FloatArray) -> FloatArray:
-    return np.stack(
-        [np.minimum(one[..., 0, :], two[..., 0, :]), np.maximum(one[..., 1, :], two[..., 1, :])], axis=-2
+    points = vertices[np.unique(faces)]
+    whole = hulled(points)
+    pieces = _visible(pieces_of(find_shells(vertices, faces)), budget.tight)
+    solid = _solid_volume(pieces, whole.hull_volume / _WHEEL)
+    if not pieces or (len(pieces) > 1 and whole.hull_volume <= budget.tight * solid):
+        return Decomposition((_shape(replace(whole, volume=solid), budget),))
+    if whole.hull_volume <= _WHEEL * solid and (wheel := _round(whole)):
+        return Decomposition((wheel,))
+    least, finer = _LEAST * (budget.tight - 1) * whole.hull_volume, _FINER * budget.shapes
+    cuts, work = cut(
+        _joined(pieces, finer, budget.tight, whole.hull_volume), finer, budget.tight, least, budget.work
     )
+    found = mended(cuts, budget.shapes, cut_tight(budget.tight), least)
+    return replace(_with_tool(found, budget, _WORTH_A_TOOL * whole.hull_volume), work=work)
 
 
-def _volumes(bounds: FloatArray) -> FloatArray:
-    return np.asarray(np.maximum(bounds[..., 1, :] - bounds[..., 0, :], MIN_THICKNESS).prod(axis=-1))
+def decompose_by_tool(vertices: FloatArray, faces: IntArray, budget: Budget) -> Decomposition:
+    """The pieces that the tool makes of the whole surface, its hull when there are none."""
+    started = time.monotonic()
+    try:
+        found = run_tool(budget.tool, vertices, faces, budget.shapes, budget.vertices, budget.tool_seconds)
+    except DecompositionError as error:
+        seconds = time.monotonic() - started
+        hull = convex_hull(vertices[np.unique(faces)], budget.vertices)
+        return Decomposition((hull,), str(error), seconds)
+    shapes = tuple(convex_hull(points, budget.vertices) for points in found)
+    return Decomposition(shapes, "", time.monotonic() - started)
+
+
+def _with_tool(pieces: Sequence[Piece], budget: Budget, worth: float) -> Decomposition:
+    """Shapes of the pieces, the loosest one of which goes to the tool if it is very loose."""
+    shapes = [_shape(piece, budget) for piece in pieces]
+    room = budget.shapes - len(pieces) + 1
+    loose = [i for i, p in enumerate(pieces) if is_loose(p, _HOPELESS, worth)]
+    if not loose or room < 2 or budget.tool_seconds <= 0:
+        return Decomposition(tuple(shapes))
+    worst = max(loose, key=lambda i: pieces[i].excess)
+    body = pieces[worst].body
+    assert body is not None
+    mesh = body.to_mesh64()
+    points, corners = np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts).astype(np.int64)
+    found = decompose_by_tool(points, corners, replace(budget, shapes=room))
+    if _misses(found.shapes, body) < pieces[worst].excess:
+        shapes[worst : worst + 1] = found.shapes
+    return replace(found, shapes=tuple(shapes))
+
+
+def _misses(shapes: Sequence[ConvexMesh], body: Manifold) -> float:
+    """[m^3] that shapes hold besides a solid, and that they lack of it: tools work on voxels, and slip."""
+    import manifold3d
+
+    hulls = [manifold3d.Manifold.hull_points(shape.vertices) for shape in shapes]
+    union = manifold3d.Manifold.batch_boolean(hulls, manifold3d.OpType.Add)
+    return float((union - body).volume() + (body - union).volume())
+
+
+def _shape(piece: Piece, budget: Budget) -> ConvexMesh:
+    """A primitive where one fits, else the hull."""
+    return fitted(piece.points, piece.volume, 1 / budget.tight) or convex_hull(piece.points, budget.vertices)
+
+
+def _round(piece: Piece) -> ConvexMesh | None:
+    """The cylinder or sphere that its hull fills: wheels and knobs roll, whatever is carved in them."""
+    shape = fitted(piece.points, piece.hull_volume)
+    return shape if shape and shape.primitive and shape.primitive.kind != "box" else None
+
+
+def _solid_volume(pieces: Sequence[Piece], enough: float) -> float:
+    """[m^3] that the pieces fill together. What overlaps counts once, where that can matter for `enough`."""
+    import manifold3d
+
+    total = sum(p.volume for p in pieces)
+    bodies = [p.body for p in pieces if p.body is not None]
+    if total < enough or len(bodies) < 2:
+        return total
+    rest = total - sum(b.volume() for b in bodies)
+    return float(rest + manifold3d.Manifold.batch_boolean(bodies, manifold3d.OpType.Add).volume())
+
+
+def _visible(pieces: Sequence[Piece], tight: float) -> list[Piece]:
+    """The pieces that do not lie within a single filled one, as the inside of a wall and repeats do."""
+    size = np.array([p.hull_volume for p in pieces])
+    order = np.argsort(-size, kind="stable")
+    hidden = np.zeros(len(pieces), dtype=bool)
+    filled = [int(i) for i in order if pieces[i].hull_volume <= tight * pieces[i].volume]
+    for holder in filled[:_MOST_HOLDERS]:
+        if hidden[holder]:
+            continue
+        hull = hull_of(pieces[holder].points)
+        if hull is None:
+            continue
+        normals = unit_normals(hull.vertices[hull.faces])
+        ends = np.einsum("fi,fi->f", normals, hull.vertices[hull.faces[:, 0]]) + _INSIDE
+        for i in np.flatnonzero(~hidden & (size <= size[holder])).tolist():
+            if i != holder and (pieces[i].points @ normals.T <= ends).all():
+                hidden[i] = True
+    return [piece for piece, skipped in zip(pieces, hidden, strict=True) if not skipped]
+
+
+def _joined(pieces: Sequence[Piece], most: int, tight: float, whole: float) -> list[Piece]:
+    """The pieces in `most` or fewer: those that lie close together share a hull, but large hollow ones."""
+    if len(pieces) <= most:
+        return list(pieces)
+    hollow = [i for i, p in enumerate(pieces) if is_loose(p, tight, _LARGE * whole)]
+    alone = sorted(hollow, key=lambda i: -pieces[i].excess)[: most // 4]
+    others = [i for i in range(len(pieces)) if i not in alone]
+    room = most // 2 if alone else most
+    boxes = [np.array([pieces[i].points.min(axis=0), pieces[i].points.max(axis=0)]) for i in others]
+    groups = [[others[i] for i in group] for group in grouped(boxes, room)] + [[i] for i in alone]
+    return [_together([pieces[i] for i in group]) for group in sorted(groups)]
+
+
+def _together(pieces: Sequence[Piece]) -> Piece:
+    if len(pieces) == 1:
+        return pieces[0]
+    joined = hulled(np.concatenate([piece.points for piece in pieces]))
+    return replace(joined, volume=min(sum(p.volume for p in pieces), joined.volume))

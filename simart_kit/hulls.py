@@ -51,28 +51,10 @@ def convex_hull(points: FloatArray, max_vertices: int = 64, thickness: float = M
     return fewer
 
 
-def bounding_box(points: FloatArray, thickness: float = MIN_THICKNESS) -> ConvexMesh:
-    """The box around (N, 3) points along the axes, `thickness` [m] or more in each."""
-    lower, upper = points.min(axis=0), points.max(axis=0)
-    grow = np.maximum(thickness - (upper - lower), 0) / 2
-    corner = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
-    hull = hull_of(np.where(corner, upper + grow, lower - grow))
-    assert hull is not None
-    return hull
-
-
 def volume(shape: ConvexMesh) -> float:
     """Signed volume inside outward triangles [m^3]."""
     a, b, c = (shape.vertices[shape.faces[:, i]] - shape.vertices.mean(axis=0) for i in range(3))
     return float(np.einsum("ni,ni->", a, np.cross(b, c)) / 6)
-
-
-def shrunk(shape: ConvexMesh, margin: float) -> ConvexMesh:
-    """The shape squeezed so that its bounding box loses `margin` [m] on every side, half its size at most."""
-    lower, upper = shape.vertices.min(axis=0), shape.vertices.max(axis=0)
-    factor = 1 - np.minimum(2 * margin / (upper - lower), 0.5)
-    middle = (lower + upper) / 2
-    return ConvexMesh(middle + (shape.vertices - middle) * factor, shape.faces)
 
 
 def _farthest(points: FloatArray, count: int) -> IntArray:

@@ -27,5 +27,9 @@ class TestMass(ModifierContract):
     stage = BUILT_IN.find("modifier", "mass").value
 
 
+class TestDynamics(ModifierContract):
+    stage = BUILT_IN.find("modifier", "dynamics").value
+
+
 class TestCollision(ModifierContract):
     stage = BUILT_IN.find("modifier", "collision").value

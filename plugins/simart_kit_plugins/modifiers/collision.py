@@ -1,7 +1,9 @@
-"""`collision`: convex shapes for every part."""
+"""`collision`: convex shapes for every part, tight where things can reach, and clear of their neighbours."""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 from typing import Literal
 
@@ -10,9 +12,17 @@ from pydantic import Field
 
 import simart_kit as sk
 from simart_kit.asset import ConvexMesh
-from simart_kit.decompose import decompose
+from simart_kit.carving import carved_apart
+from simart_kit.convex_decomposition import lacks
+from simart_kit.cutting import WORK
+from simart_kit.decompose import Budget, Decomposition, decompose, decompose_by_tool
+from simart_kit.fitting import aligned_box
 from simart_kit.hookspecs import Register
-from simart_kit.hulls import bounding_box, convex_hull, shrunk
+from simart_kit.hulls import MIN_THICKNESS, convex_hull
+from simart_kit.separation import Overlap, overlaps, separated
+
+Shapes = dict[str, Decomposition]  # by name of the part
+_REBATES = 1.01  # how tight shapes have to be where parts overlap
 
 
 class Collision(sk.Modifier):
@@ -23,40 +33,124 @@ class Collision(sk.Modifier):
     class Options(sk.Options):
         """How tight and how large the shapes may be."""
 
-        mode: Literal["auto", "hull", "box", "none"] = Field(
+        mode: Literal["auto", "decompose", "hull", "box", "none"] = Field(
             "auto",
-            description="auto: one hull, or one a connected piece where a single hull is loose; "
+            description="auto: primitives where they fit, hulls of what is convex, and cuts along the part's "
+            "own planes, so that what is hollow stays hollow; decompose: the whole surface by `tool`; "
             "hull: one convex hull; box: the bounding box; none: no shape",
         )
-        max_shapes: int = Field(32, ge=1, description="most shapes of a part in mode auto")
+        tool: Literal["vhacd", "coacd"] = Field(
+            "vhacd",
+            description="convex decomposition for mode decompose, and in mode auto for what no cut makes "
+            "tight; coacd follows surfaces better, is slow and an extra: `pip install 'simart-kit[coacd]'`",
+        )
+        tool_timeout: float = Field(
+            6.0, ge=0, description="time that `tool` may take for all parts; hulls then stand in [s]"
+        )
+        max_shapes: int = Field(32, ge=1, description="most shapes of a part in modes auto and decompose")
         max_vertices: int = Field(64, ge=8, description="most vertices of a shape; simulators take 64")
-        margin: float = Field(0.0, ge=0, le=0.05, description="shapes are smaller by this on each side [m]")
+        margin: float = Field(
+            0.002,
+            ge=0,
+            le=0.05,
+            description="most that a shape gives way on a side where it overlaps or touches a part that "
+            "moves against its own [m]",
+        )
 
     options: Options
 
     def modify(self, asset: sk.Asset) -> sk.Asset:
-        """The asset with new collision shapes."""
-        changed = {
-            part.name: replace(part, collision=self._shapes(asset, index))
-            for index, part in enumerate(asset.parts)
-        }
-        counts = ", ".join(f"{name} {len(part.collision)}" for name, part in changed.items())
-        text = f"convex shapes ({self.options.mode}): {counts}"
-        return asset.with_parts(changed).with_notes("collision", "info", [text])
+        """The asset with new collision shapes.
 
-    def _shapes(self, asset: sk.Asset, index: int) -> tuple[ConvexMesh, ...]:
+        Raises:
+            BadInputError: the tool is needed and not installed.
+        """
+        options = self.options
+        lacking = options.mode in ("auto", "decompose") and lacks(options.tool)
+        if lacking:
+            raise sk.BadInputError(f"modifier collision: {options.tool} is not installed: {lacking}")
+        made = self._made(asset, {part.name for part in asset.parts}, Budget().tight, options.tool_timeout)
+        done = self._placed(asset, made)
+        found: Sequence[Overlap] = overlaps(done)
+        if found and options.mode == "auto":
+            made, done, found = self._refined(asset, made, done, found)
+        if found and options.margin and options.mode in ("auto", "decompose"):
+            done = carved_apart(done)
+            found = overlaps(done)
+        problems = [f"{name} has looser shapes: {m.problem}" for name, m in made.items() if m.problem]
+        done = done.with_notes("collision", "info", [_counts(options.mode, done), *_told(found)])
+        return done.with_notes("collision", "warning", problems)
+
+    def _refined(
+        self, asset: sk.Asset, made: Shapes, done: sk.Asset, found: Sequence[Overlap]
+    ) -> tuple[Shapes, sk.Asset, Sequence[Overlap]]:
+        """What is known, or tighter shapes where parts overlap, if these overlap less: rebates are small."""
+        names = {name for overlap in found for name in (overlap.one, overlap.other)}
+        left = self.options.tool_timeout - sum(m.tool_seconds for m in made.values())
+        finer = made | self._made(asset, names, _REBATES, max(left, 0.0))
+        tried = self._placed(asset, finer)
+        remaining = overlaps(tried)
+        if sum(o.depth for o in remaining) < sum(o.depth for o in found):
+            return finer, tried, remaining
+        return made, done, found
+
+    def _placed(self, asset: sk.Asset, made: Shapes) -> sk.Asset:
+        """The asset with shapes, which give way to those of neighbours."""
+        changed = {name: replace(asset.part(name), collision=m.shapes) for name, m in made.items()}
+        margin = self.options.margin
+        return separated(asset.with_parts(changed), margin) if margin else asset.with_parts(changed)
+
+    def _made(self, asset: sk.Asset, names: Collection[str], tight: float, seconds: float) -> Shapes:
+        """Shapes of some parts. The largest come last: what others leave of work and time is theirs."""
+        options, made = self.options, {}
+        count = np.bincount(asset.face_part)
+        order = [i for i in np.argsort(count, kind="stable").tolist() if asset.parts[i].name in names]
+        work = WORK
+        for done, index in enumerate(order):
+            share = work // (len(order) - done)
+            budget = Budget(options.max_shapes, options.max_vertices, tight, share, options.tool, seconds)
+            shapes = made[asset.parts[index].name] = self._shapes(asset, index, budget)
+            work, seconds = max(work - shapes.work, 0), max(seconds - shapes.tool_seconds, 0.0)
+        return {part.name: made[part.name] for part in asset.parts if part.name in names}
+
+    def _shapes(self, asset: sk.Asset, index: int, budget: Budget) -> Decomposition:
         options, vertices = self.options, asset.mesh.vertices
         faces = asset.mesh.faces[asset.face_part == index]
+        points = vertices[np.unique(faces)]
         match options.mode:
             case "none":
-                return ()
+                return Decomposition(())
             case "box":
-                shapes: tuple[ConvexMesh, ...] = (bounding_box(vertices[faces.ravel()]),)
+                grow = np.maximum(MIN_THICKNESS - np.ptp(points, axis=0), 0) / 2
+                return Decomposition((aligned_box(points.min(axis=0) - grow, points.max(axis=0) + grow),))
             case "hull":
-                shapes = (convex_hull(vertices[np.unique(faces)], options.max_vertices),)
+                return Decomposition((convex_hull(points, options.max_vertices),))
+            case "decompose":
+                return decompose_by_tool(vertices, faces, budget)
             case "auto":
-                shapes = decompose(vertices, faces, options.max_shapes, options.max_vertices)
-        return tuple(shrunk(shape, options.margin) for shape in shapes) if options.margin else shapes
+                return decompose(vertices, faces, budget)
+
+
+def _counts(mode: str, asset: sk.Asset) -> str:
+    """How many shapes each part has, and of what kind."""
+    counts = ", ".join(f"{part.name} {len(part.collision)}" for part in asset.parts)
+    kinds = _kinds(shape for part in asset.parts for shape in part.collision)
+    return f"convex shapes ({mode}): {counts}; {kinds}"
+
+
+def _kinds(shapes: Iterable[ConvexMesh]) -> str:
+    found = Counter(shape.primitive.kind if shape.primitive else "hull" for shape in shapes)
+    return ", ".join(f"{count} {kind}" for kind, count in sorted(found.items())) or "no shapes"
+
+
+def _told(found: Iterable[Overlap]) -> list[str]:
+    """A sentence naming the parts that still overlap at rest; none when none do."""
+    words = [f"{o.one} and {o.other} ({1000 * o.depth:.2g} mm)" for o in found]
+    return (
+        [f"collision shapes overlap at rest, simulators exclude the pairs: {', '.join(words)}"]
+        if words
+        else []
+    )
 
 
 @sk.hookimpl

@@ -1,0 +1,131 @@
+"""Cutting convex shapes out of convex shapes, so that neighbours which overlap at rest do so no more."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .arrays import FloatArray
+from .asset import Asset, ConvexMesh
+from .convex_overlap import Convex, gap
+from .fitting import box_around, fitted
+from .hulls import hull_of, volume
+from .separation import CLEARANCE, TOLERANCE, overlaps, replaced
+from .triangles import areas, unit_normals
+
+_MOST_PLANES = 10  # of what is cut out; rounder shapes are cut out as their box
+_THIN = 0.001  # [m] along a cut below which a piece is dropped
+_MOSTLY = 0.95  # share of what cuts all around leave with which a single cut will do
+_EXACT = 0.999  # share of its box that a piece fills which is one
+_SLIVER = 0.01  # share of the shape below which a piece is dropped
+_MORE = 48  # shapes that a part may have more for this
+
+
+def carved_apart(asset: Asset) -> Asset:
+    """The asset without overlaps at rest: of two parts the one gives way that loses the smaller share.
+
+    It is cut along the planes of the other's shapes; one that would get very many of them stays as it is.
+
+    Args:
+        asset: with collision shapes.
+    """
+    shapes = {part.name: list(part.collision) for part in asset.parts}
+    most = {name: len(row) + _MORE for name, row in shapes.items()}
+    for overlap in overlaps(asset):
+        pairs = (overlap.one, overlap.other), (overlap.other, overlap.one)
+        made = {giver: _without(shapes[giver], shapes[taker], most[giver]) for giver, taker in pairs}
+        kept = {name: _volume(row) / max(_volume(shapes[name]), 1e-12) for name, row in made.items()}
+        giver = max(made, key=lambda name: kept[name])
+        shapes[giver] = made[giver] or shapes[giver]
+    return replaced(asset, {name: tuple(row) for name, row in shapes.items()})
+
+
+def carved(shape: ConvexMesh, other: ConvexMesh, clearance: float = CLEARANCE) -> tuple[ConvexMesh, ...]:
+    """What of a shape lies outside another one, in convex pieces, without slivers.
+
+    Of a single cut and of cuts all around, the one that leaves more is taken, few pieces before many.
+
+    Args:
+        shape: that gives way.
+        other: what is cut out; of one with many faces, the box around it.
+        clearance: how far the pieces stay away from it [m].
+    """
+    normals, ends = _planes(other)
+    around = _around(shape, normals, ends + clearance)
+    single = _single(shape, normals, ends + clearance)
+    if single is not None and volume(single) > _MOSTLY * _volume(around):
+        return (single,)
+    least = _SLIVER * volume(shape)
+    return tuple(piece for piece in around if volume(piece) > least)
+
+
+def _single(shape: ConvexMesh, normals: FloatArray, ends: FloatArray) -> ConvexMesh | None:
+    """What one cut leaves of a shape: the one that leaves most."""
+    left = [_half(shape, -normal, -end) for normal, end in zip(normals, ends, strict=True)]
+    return max((piece for piece in left if piece is not None), key=volume, default=None)
+
+
+def _around(shape: ConvexMesh, normals: FloatArray, ends: FloatArray) -> list[ConvexMesh]:
+    """What lies beyond any of some planes, cut off where most stands out first."""
+    pieces, rest, open_planes = list[ConvexMesh](), shape, list(range(len(ends)))
+    while open_planes:
+        reach = [float(Convex(rest).extent(normals[[k]])[1][0]) - ends[k] for k in open_planes]
+        plane = open_planes.pop(int(np.argmax(reach)))
+        if max(reach) <= 0:
+            break  # what is left lies inside
+        if max(reach) > _THIN:
+            piece = _half(rest, -normals[plane], -ends[plane])
+            pieces += [] if piece is None else [piece]
+        inside = _half(rest, normals[plane], ends[plane])
+        if inside is None:
+            break
+        rest = inside
+    return pieces
+
+
+def _volume(shapes: Sequence[ConvexMesh]) -> float:
+    return sum(map(volume, shapes))
+
+
+def _without(shapes: Sequence[ConvexMesh], taker: Sequence[ConvexMesh], most: int) -> list[ConvexMesh]:
+    """The shapes with another part's cut out; where they are already many, they stay."""
+    made = list(shapes)
+    for other in taker:
+        row = list[ConvexMesh]()
+        for shape in made:
+            deep = -gap(Convex(shape), Convex(other))[0] > TOLERANCE
+            row += carved(shape, other) if deep and len(made) < most else [shape]
+        made = row
+    return made
+
+
+def _planes(shape: ConvexMesh) -> tuple[FloatArray, FloatArray]:
+    """(N, 3) outward normals and (N,) offsets of the faces of a shape, or of the box around it."""
+    triangles = shape.vertices[shape.faces]
+    area = areas(triangles)
+    triangles = triangles[area > 1e-9 * area.max()]
+    normals = unit_normals(triangles)
+    ends = np.einsum("ni,ni->n", normals, triangles[:, 0])
+    first = np.unique(np.round(normals, 5), axis=0, return_index=True)[1]
+    if len(first) > _MOST_PLANES:
+        return _planes(box_around(shape.vertices))
+    kept = np.sort(first)
+    return normals[kept], ends[kept]
+
+
+def _half(shape: ConvexMesh, axis: FloatArray, end: float) -> ConvexMesh | None:
+    """What of a shape lies no farther along a (3,) unit axis than `end` [m]; None where that is nothing."""
+    height = shape.vertices @ axis - end
+    if height.max() <= 0:
+        return shape
+    if height.min() >= 0:
+        return None
+    ends = shape.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    low, high = ends[(height[ends[:, 0]] <= 0) & (height[ends[:, 1]] > 0)].T
+    share = (height[low] / (height[low] - height[high]))[:, None]
+    cut = shape.vertices[low] + share * (shape.vertices[high] - shape.vertices[low])
+    hull = hull_of(np.concatenate([shape.vertices[height <= 0], cut]))
+    if hull is None or float(np.ptp(hull.vertices @ axis)) < _THIN:
+        return None
+    return fitted(hull.vertices, volume(hull), _EXACT) or hull

@@ -1,0 +1,104 @@
+"""How deep two convex shapes stand in each other, exactly: the separating axis theorem."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .arrays import FloatArray
+from .asset import ConvexMesh
+from .triangles import areas, chunks, unit_normals
+
+_DIGITS = 6  # directions that agree to so many digits are one
+_SLIVER = 1e-9  # of the largest triangle's area: normals of smaller ones are noise
+
+
+@dataclass(frozen=True, eq=False)
+class Convex:
+    """A convex shape with what the test asks of it.
+
+    Attributes:
+        shape: in the asset frame; a round primitive counts as exactly round.
+    """
+
+    shape: ConvexMesh
+
+    @cached_property
+    def bounds(self) -> FloatArray:
+        """(2, 3) lower and upper corner of the box around it, along the asset's axes [m]."""
+        lower, upper = self.extent(np.eye(3))
+        return np.array([lower, upper])
+
+    @cached_property
+    def normals(self) -> FloatArray:
+        """(N, 3) unit normals of its faces, each up to its sign."""
+        triangles = self.shape.vertices[self.shape.faces]
+        area = areas(triangles)
+        return _lines(unit_normals(triangles[area > _SLIVER * area.max()]))
+
+    @cached_property
+    def edges(self) -> FloatArray:
+        """(E, 3) unit directions of the edges between its faces, each up to its sign."""
+        vertices, faces = self.shape.vertices, self.shape.faces
+        ends = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+        order = np.lexsort(ends.T)
+        ends, normals = ends[order], np.repeat(unit_normals(vertices[faces]), 3, axis=0)[order]
+        repeated = (ends[1:] == ends[:-1]).all(axis=1)
+        flat = repeated & (np.einsum("ei,ei->e", normals[1:], normals[:-1]) > 1 - 1e-9)
+        creased = ~(np.append(flat, False) | np.insert(flat, 0, False))
+        return _lines(vertices[ends[creased, 1]] - vertices[ends[creased, 0]])
+
+    def extent(self, axes: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """(K,) lowest and highest coordinates along (K, 3) unit axes [m]."""
+        primitive = self.shape.primitive
+        if primitive is None or primitive.kind == "box":
+            lower, upper = np.zeros(len(axes)), np.zeros(len(axes))
+            for some in chunks(len(axes)):
+                along = axes[some] @ self.shape.vertices.T
+                lower[some], upper[some] = along.min(axis=1), along.max(axis=1)
+            return lower, upper
+        middle = axes @ primitive.asset_T_shape[:3, 3]
+        reach = np.full(len(axes), primitive.size[0] / 2)
+        if primitive.kind == "cylinder":
+            cosine = np.abs(axes @ primitive.asset_T_shape[:3, 2])
+            reach = reach * np.sqrt(np.maximum(1 - cosine**2, 0)) + cosine * primitive.size[2] / 2
+        return middle - reach, middle + reach
+
+
+def gap(one: Convex, other: Convex) -> tuple[float, FloatArray]:
+    """How far two shapes are apart [m], and the (3,) unit axis from one to the other along which they are.
+
+    Negative is how deep they overlap: the shortest way that parts them. Positive is their distance where
+    faces look at each other, and at most their distance elsewhere.
+    """
+    middles = other.bounds.mean(axis=0) - one.bounds.mean(axis=0)
+    length = float(np.linalg.norm(middles))
+    between = middles[None] / length if length > 0 else np.eye(3)
+    found = _widest(one, other, np.concatenate([one.normals, other.normals, between]))
+    if found[0] > 0:
+        return found
+    cross = np.cross(one.edges[:, None], other.edges[None]).reshape(-1, 3)
+    size = np.linalg.norm(cross, axis=1)
+    cross = cross[size > 1e-6] / size[size > 1e-6, None]
+    edged = _widest(one, other, cross) if len(cross) else found
+    return edged if edged[0] > found[0] + 1e-9 else found  # faces win ties: shapes are cut along them
+
+
+def _widest(one: Convex, other: Convex, axes: FloatArray) -> tuple[float, FloatArray]:
+    lower, upper = one.extent(axes)
+    other_lower, other_upper = other.extent(axes)
+    ahead, behind = other_lower - upper, lower - other_upper
+    best = int(np.argmax(np.maximum(ahead, behind)))
+    sign = 1.0 if ahead[best] >= behind[best] else -1.0
+    return float(max(ahead[best], behind[best])), sign * axes[best]
+
+
+def _lines(directions: FloatArray) -> FloatArray:
+    """The distinct lines along (N, 3) directions, as unit vectors."""
+    unit = directions / np.maximum(np.linalg.norm(directions, axis=1, keepdims=True), 1e-300)
+    lead = np.argmax(np.abs(unit) > 1e-3, axis=1)
+    unit = unit * np.sign(np.take_along_axis(unit, lead[:, None], axis=1))
+    first = np.unique(np.round(unit, _DIGITS), axis=0, return_index=True)[1]
+    return np.asarray(unit[np.sort(first)])

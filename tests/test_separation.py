@@ -1,0 +1,189 @@
+"""Overlap of collision shapes, measured exactly and parted where it is small."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+import pytest
+
+import simart_kit as sk
+from simart_kit.arrays import FloatArray, vec3
+from simart_kit.asset import ConvexMesh
+from simart_kit.clipping import pulled_in
+from simart_kit.convex_overlap import Convex, gap
+from simart_kit.fitting import aligned_box
+from simart_kit.hulls import convex_hull
+from simart_kit.kinematics import rotation
+from simart_kit.primitive_meshes import pose, primitive_shape
+from simart_kit.primitives import Primitive, PrimitiveKind
+from simart_kit.separation import CLEARANCE, overlaps, overlaps_on_the_way, rigid_bodies, separated
+from simart_kit.testing.meshes import boxes_mesh
+
+Corner = tuple[float, float, float]
+
+
+def block(lower: Corner, upper: Corner) -> ConvexMesh:
+    return aligned_box(np.array(lower), np.array(upper))
+
+
+def turned_block(size: Corner, vector: Corner, middle: Corner) -> ConvexMesh:
+    return primitive_shape(Primitive("box", vec3(size), pose(rotation(np.array(vector)), np.array(middle))))
+
+
+def round_shape(kind: PrimitiveKind, size: Corner, middle: Corner) -> ConvexMesh:
+    return primitive_shape(Primitive(kind, size, pose(np.eye(3), np.array(middle))))
+
+
+def measured(one: ConvexMesh, other: ConvexMesh) -> tuple[float, FloatArray]:
+    return gap(Convex(one), Convex(other))
+
+
+def pair(one: ConvexMesh, other: ConvexMesh, joint: sk.Joint | None = None) -> sk.Asset:
+    """Two boxes of surface that hold one shape each, the second of which slides along x."""
+    mesh = boxes_mesh([((0, 0, 0), (1, 1, 1)), ((2, 0, 0), (3, 1, 1))])
+    slide = sk.Joint("slide", "prismatic", "one", "two", axis=(1, 0, 0), limits=sk.Limits(-0.2, 0.2))
+    parts = (sk.Part("one", collision=(one,)), sk.Part("two", collision=(other,)))
+    return sk.Asset("pair", mesh, np.repeat([0, 1], 12), parts, (joint or slide,))
+
+
+UNIT = block((0, 0, 0), (1, 1, 1))
+
+
+class TestGap:
+    @pytest.mark.parametrize("shift", [0.3, 0.0, -0.01])
+    def test_blocks_face_to_face(self, shift: float) -> None:
+        found, axis = measured(UNIT, block((1 + shift, 0.2, 0.2), (2, 0.8, 0.8)))
+        assert found == pytest.approx(shift, abs=1e-12)
+        np.testing.assert_allclose(axis, [1, 0, 0])
+
+    def test_a_block_on_its_edge_over_another_across(self) -> None:
+        # Two unit cubes, each on an edge, the edges across each other: only edges against edges part them.
+        quarter = np.pi / 4
+        one = turned_block((1, 1, 1), (quarter, 0, 0), (0, 0, 0))
+        two = turned_block((1, 1, 1), (0, quarter, 0), (0, 0, np.sqrt(2) - 0.01))
+        found, axis = measured(one, two)
+        assert found == pytest.approx(-0.01)
+        np.testing.assert_allclose(axis, [0, 0, 1], atol=1e-9)
+
+    def test_the_axis_leads_from_one_to_the_other(self) -> None:
+        other = block((0.99, 0, 0), (2, 1, 1))
+        assert measured(UNIT, other)[1] @ [1, 0, 0] == pytest.approx(1)
+        assert measured(other, UNIT)[1] @ [1, 0, 0] == pytest.approx(-1)
+
+    def test_round_primitives_are_round(self) -> None:
+        ball = round_shape("sphere", (0.2, 0.2, 0.2), (0.5, 0.5, 1.099))
+        assert measured(UNIT, ball)[0] == pytest.approx(-0.001)
+        other = round_shape("sphere", (0.2, 0.2, 0.2), (0.5, 0.612, 1.259))
+        assert measured(ball, other)[0] == pytest.approx(np.hypot(0.112, 0.16) - 0.2)
+        rod = round_shape("cylinder", (0.2, 0.2, 0.6), (1.095, 0.5, 0.5))
+        assert measured(UNIT, rod)[0] == pytest.approx(-0.005)
+
+    def test_inside_is_as_deep_as_the_shortest_way_out(self) -> None:
+        assert measured(UNIT, block((0.4, 0.4, 0.7), (0.6, 0.6, 0.8)))[0] == pytest.approx(-0.3)
+
+    @pytest.mark.parametrize("seed", range(6))
+    def test_mujoco_measures_the_same_depth(self, seed: int) -> None:
+        rng = np.random.default_rng(seed)
+        shapes = [convex_hull(rng.normal(size=(12, 3)) * 0.1 + [shift, 0, 0], 64) for shift in (0.0, 0.15)]
+        spec = mujoco.MjSpec()
+        for index, shape in enumerate(shapes):
+            mesh = spec.add_mesh(
+                name=f"mesh{index}", uservert=shape.vertices.ravel(), userface=shape.faces.ravel()
+            )
+            spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=mesh.name)
+        model = spec.compile()
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        depth = mujoco.mj_geomDistance(model, data, 0, 1, 1.0, np.zeros(6))
+        assert depth < 0
+        assert measured(*shapes)[0] == pytest.approx(depth, abs=2e-5)
+
+
+class TestPulledIn:
+    def test_a_block_loses_one_side(self) -> None:
+        shape = pulled_in(UNIT, np.array([0.0, -1.0, 0.0]), 0.1)
+        np.testing.assert_allclose(shape.vertices.min(axis=0), [0, 0.1, 0])
+        np.testing.assert_allclose(shape.vertices.max(axis=0), [1, 1, 1])
+        assert shape.primitive is not None
+        assert shape.primitive.size == pytest.approx((1, 0.9, 1))
+
+    def test_a_cylinder_loses_an_end_or_grows_thinner(self) -> None:
+        rod = round_shape("cylinder", (0.2, 0.2, 0.6), (0, 0, 0))
+        shorter = pulled_in(rod, np.array([0.0, 0.0, 1.0]), 0.1)
+        assert shorter.primitive is not None
+        assert shorter.primitive.size == pytest.approx((0.2, 0.2, 0.5))
+        assert shorter.primitive.asset_T_shape[2, 3] == pytest.approx(-0.05)
+        thinner = pulled_in(rod, np.array([1.0, 0.0, 0.0]), 0.01)
+        assert thinner.primitive is not None
+        assert thinner.primitive.size == pytest.approx((0.18, 0.18, 0.6))
+
+    def test_across_its_axes_a_block_becomes_a_hull_without_its_corner(self) -> None:
+        diagonal = np.ones(3) / np.sqrt(3)
+        shape = pulled_in(UNIT, diagonal, 0.1)
+        assert shape.primitive is None
+        assert (shape.vertices @ diagonal).max() == pytest.approx(np.sqrt(3) - 0.1)
+        np.testing.assert_allclose(shape.vertices.max(axis=0), 1)
+
+
+class TestOverlaps:
+    def test_pairs_and_depths(self) -> None:
+        (found,) = overlaps(pair(UNIT, block((0.97, 0, 0), (2, 1, 1))))
+        assert (found.one, found.other) == ("one", "two")
+        assert found.depth == pytest.approx(0.03)
+        assert overlaps(pair(UNIT, block((1, 0, 0), (2, 1, 1)))) == ()
+
+    def test_positions_move_shapes(self) -> None:
+        asset = pair(UNIT, block((1.1, 0, 0), (2, 1, 1)))
+        assert overlaps(asset) == ()
+        assert overlaps(asset, {"slide": -0.15})[0].depth == pytest.approx(0.05)
+        assert overlaps_on_the_way(asset)[0].depth == pytest.approx(0.1)
+
+    def test_parts_that_cannot_move_against_each_other_are_one(self) -> None:
+        for joint in (
+            sk.Joint("fix", "fixed", "one", "two"),
+            sk.Joint("stuck", "prismatic", "one", "two", limits=sk.Limits(0.0, 0.0)),
+        ):
+            asset = pair(UNIT, UNIT, joint)
+            assert overlaps(asset) == ()
+            assert len(set(rigid_bodies(asset).tolist())) == 1
+
+    def test_parts_without_shapes_do_not_overlap(self) -> None:
+        asset = pair(UNIT, UNIT)
+        bare = asset.with_parts({"two": replace(asset.part("two"), collision=())})
+        assert overlaps(bare) == overlaps_on_the_way(bare) == ()
+
+
+class TestSeparated:
+    def test_both_give_way_alike_and_only_where_they_meet(self) -> None:
+        asset = separated(pair(UNIT, block((0.998, 0, 0), (2, 1, 1))), 0.002)
+        one, two = (part.collision[0].vertices for part in asset.parts)
+        half = (0.002 + CLEARANCE) / 2
+        np.testing.assert_allclose(one.max(axis=0), [1 - half, 1, 1])
+        np.testing.assert_allclose(one.min(axis=0), 0)
+        np.testing.assert_allclose(two.min(axis=0), [0.998 + half, 0, 0])
+        np.testing.assert_allclose(two.max(axis=0), [2, 1, 1])
+
+    def test_shapes_that_touch_get_a_clearance(self) -> None:
+        asset = separated(pair(UNIT, block((1, 0, 0), (2, 1, 1))), 0.002)
+        one, two = (Convex(part.collision[0]) for part in asset.parts)
+        assert gap(one, two)[0] == pytest.approx(CLEARANCE)
+
+    def test_a_thin_sheet_keeps_most_of_itself(self) -> None:
+        sheet = block((0.999, 0, 0), (1.001, 1, 1))
+        asset = separated(pair(UNIT, sheet), 0.002)
+        one, two = (part.collision[0] for part in asset.parts)
+        assert np.ptp(two.vertices[:, 0]) == pytest.approx(0.75 * 0.002)
+        assert gap(Convex(one), Convex(two))[0] == pytest.approx(CLEARANCE)
+
+    def test_deep_overlaps_stay(self) -> None:
+        before = pair(UNIT, block((0.9, 0, 0), (2, 1, 1)))
+        after = separated(before, 0.002)
+        assert [p.collision[0] for p in after.parts] == [p.collision[0] for p in before.parts]
+        assert overlaps(after)[0].depth == pytest.approx(0.1)
+
+    def test_shapes_apart_stay_as_they_are(self) -> None:
+        before = pair(UNIT, block((1.01, 0, 0), (2, 1, 1)))
+        after = separated(before, 0.002)
+        assert [p.collision[0] for p in after.parts] == [p.collision[0] for p in before.parts]
