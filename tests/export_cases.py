@@ -11,9 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from simart_kit.arrays import FloatArray
 from simart_kit.asset import Asset, ConvexMesh, Joint, JointKind, MassProperties, Part
-from simart_kit.kinematics import forward, rest_origin, sample_positions
+from simart_kit.kinematics import forward, rest_origin, rotation, sample_positions
 from simart_kit.mesh import Mesh, VisualMaterial
+from simart_kit.primitives import Primitive
 from simart_kit.testing.meshes import box, cabinet_asset, chain_asset, static_asset
 
 from .readers import Reading
@@ -61,6 +63,40 @@ def overlapping_asset() -> Asset:
     return asset.with_parts({"door": replace(asset.part("door"), collision=(shape,))})
 
 
+def turn(x: float, y: float, z: float) -> FloatArray:
+    """(3, 3) rotation about the fixed axes x, then y, then z [rad], one after the other."""
+    around = [rotation(angle * axis) for angle, axis in zip((x, y, z), np.eye(3), strict=True)]
+    return around[2] @ around[1] @ around[0]
+
+
+RIGHT = np.pi / 2
+TURNS = {
+    "none": turn(0.0, 0.0, 0.0),
+    "slanted": turn(0.4, -0.9, 2.5),
+    "half": turn(np.pi, 0.0, 0.0),
+    "behind": turn(0.3, 2.0, -3.0),
+    "lock": turn(0.7, RIGHT, 0.0),
+    "lock_below": turn(-0.3, -RIGHT, 1.1),
+    "almost_locked": turn(0.7, RIGHT - 1e-8, -2.0),
+}
+"""Rotations, some of them in gimbal lock or close to it, where roll and yaw turn about the same line."""
+
+
+def primitives_asset(rotation: FloatArray = TURNS["slanted"]) -> Asset:
+    """The cabinet whose drawer has a box, a cylinder, a sphere, and a box that is a mesh, turned alike."""
+    shapes = []
+    sizes = (("box", (0.2, 0.1, 0.05)), ("cylinder", (0.06, 0.06, 0.3)), ("sphere", (0.08, 0.08, 0.08)))
+    for index, (kind, size) in enumerate(sizes):
+        pose = np.eye(4)
+        pose[:3, :3], pose[:3, 3] = rotation, (0.1 * index, -0.05 * index, 0.65)
+        vertices, faces = box(*(sign * np.array(size) / 2 for sign in (-1, 1)))
+        primitive = Primitive(kind, size, pose)
+        shapes.append(ConvexMesh(vertices @ rotation.T + pose[:3, 3], faces, primitive))
+    shapes.append(replace(shapes[0], primitive=None))
+    asset = cabinet_asset()
+    return asset.with_parts({"drawer": replace(asset.part("drawer"), collision=tuple(shapes))})
+
+
 def with_joint_kind(kind: JointKind) -> Asset:
     """The cabinet with another kind of joint at its door."""
     asset = cabinet_asset()
@@ -75,6 +111,7 @@ CASES: dict[str, Callable[[], Asset]] = {
     "painted": painted_asset,
     "two_tone": two_tone_asset,
     "sheet": sheet_asset,
+    "primitives": primitives_asset,
 }
 
 

@@ -109,15 +109,18 @@ def test_materials_are_shared_and_their_colors_are_srgb(tmp_path: Path) -> None:
 def test_joints_and_surfaces_have_the_asset_numbers(tmp_path: Path) -> None:
     asset = cabinet_asset()
     ice = replace(asset.part("door"), material=Material("ice", 900.0, 0.03, 0.0))
-    model = load(asset.with_parts({"door": ice}), tmp_path / "mjcf", armature=0.004, timestep=0.001)
+    heavy = replace(asset.joint("door_hinge"), armature=0.004)
+    asset = asset.with_parts({"door": ice}).with_joints({"door_hinge": heavy})
+    model = load(asset, tmp_path / "mjcf", timestep=0.001)
+    assert model.joint("door_hinge").armature == 0.004
     for joint in asset.joints:
         found = model.joint(joint.name)
         assert found.damping == joint.damping
         assert found.frictionloss == joint.friction
-        assert found.armature == 0.004
+        assert found.armature == joint.armature
         np.testing.assert_array_equal(model.jnt_actfrcrange[found.id], [-joint.effort, joint.effort])
-    assert model.geom("door_collision_0").friction[0] == 0.03
-    assert model.geom("body_collision_0").friction[0] == 0.5
+    np.testing.assert_array_equal(model.geom("door_collision_0").friction, [0.03, 0.005, 0.0001])
+    np.testing.assert_array_equal(model.geom("body_collision_0").friction, [0.5, 0.005, 0.0001])
     assert model.opt.timestep == 0.001
     assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
 
@@ -144,15 +147,17 @@ def test_parts_that_overlap_at_rest_do_not_push_each_other(floating: bool, tmp_p
 
     spec = mujoco.MjSpec.from_file(str(path))
     # A root that is free is a parent as others are: MuJoCo leaves out its contacts with its children.
-    excluded = {(e.bodyname1, e.bodyname2) for e in spec.excludes}
-    assert excluded == {("door", "drawer")} | (set() if floating else {("body", "door")})
+    excluded = {(e.bodyname1, e.bodyname2): e.name for e in spec.excludes}
+    expected = {("door", "drawer"): "door_drawer_at_rest"}
+    assert excluded == expected | ({} if floating else {("body", "door"): "body_door_at_rest"})
     for exclude in list(spec.excludes):
         spec.delete(exclude)
     assert min(contacts(spec.compile())) == pytest.approx(-0.002, abs=1e-4)
 
-    told = [text for text in Mjcf().unsupported(asset) if "overlap at rest" in text]
+    told = [text for text in Mjcf().unsupported(asset) if "shapes overlap" in text]
     assert len(told) == 1
-    assert all(" and ".join(pair) in told[0] and " and ".join(pair) in path.read_text() for pair in excluded)
+    words = [f"{' and '.join(pair)} (2 mm) at rest" for pair in expected]
+    assert all(text in told[0] and text in path.read_text() for text in words)
 
 
 def test_contact_stays_on_between_parts_that_do_not_overlap(tmp_path: Path) -> None:
@@ -178,9 +183,10 @@ def test_a_door_opens_all_the_way_past_a_frame_that_it_grazes(tmp_path: Path) ->
     # The hinge is 10 mm behind the door's front and 5 mm from the side: the corner turns 5 mm into it.
     path = export(cabinet_asset(), tmp_path / "mjcf")
     assert opened_by_hand(mujoco.MjModel.from_xml_path(str(path))) == pytest.approx(-1.5, abs=0.01)
-    assert any("body and door (5 mm)" in text for text in Mjcf().unsupported(cabinet_asset()))
+    assert any("body and door (5 mm) on the way" in text for text in Mjcf().unsupported(cabinet_asset()))
 
     spec = mujoco.MjSpec.from_file(str(path))
+    assert [exclude.name for exclude in spec.excludes] == ["body_door_on_the_way"]
     for exclude in list(spec.excludes):
         spec.delete(exclude)
     assert opened_by_hand(spec.compile()) > -1.0

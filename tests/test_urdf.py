@@ -121,6 +121,19 @@ def test_dry_friction_is_written_on_request_only(tmp_path: Path) -> None:
     assert not any("dry friction" in t for t in Urdf(Urdf.Options(dynamics_friction=True)).unsupported(asset))
 
 
+def test_meshes_are_named_by_package_on_request(tmp_path: Path) -> None:
+    asset = cabinet_asset()
+    path = export(asset, tmp_path / "urdf", package_uris=True)
+    names = [mesh.attrib["filename"] for mesh in ElementTree.parse(path).iter("mesh")]
+    assert len(names) == 12
+    # Some find a package by its name, some by that of its folder.
+    assert ElementTree.parse(path.parent / "package.xml").getroot().findtext("name") == path.parent.name
+    for name in names:
+        assert name.startswith("package://cabinet/meshes/")
+        assert (tmp_path / "urdf" / name.removeprefix("package://")).is_file()
+    assert read_yourdfpy(path, {}).pictures == 3
+
+
 def test_surface_friction_is_written_for_gazebo_pybullet_and_drake(tmp_path: Path) -> None:
     asset = static_asset()
     asset = asset.with_parts({"body": replace(asset.parts[0], material=Material("ice", 900.0, 0.03, 0.0))})
@@ -166,6 +179,9 @@ def test_a_flat_collision_shape_becomes_a_slab(loader: str, tmp_path: Path) -> N
 
 
 def test_what_is_lost_is_told() -> None:
+    heavy = replace(cabinet_asset().joint("door_hinge"), armature=0.1)
+    told = Urdf().unsupported(cabinet_asset().with_joints({"door_hinge": heavy}))
+    assert any(re.search("armature.*: door_hinge$", text) for text in told)
     assert any("base is free" in text for text in Urdf().unsupported(replace(cabinet_asset(), floating=True)))
     assert any("body, door, drawer" in t for t in Urdf().unsupported(cabinet_asset(physics=False)))
     assert any(re.search("given a back.*: flag$", text) for text in Urdf().unsupported(sheet_asset()))

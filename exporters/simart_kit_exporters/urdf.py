@@ -1,4 +1,4 @@
-"""URDF: NAME.urdf, package.xml and meshes/, with relative paths only.
+"""URDF: NAME.urdf, package.xml and meshes/.
 
 The root part is the root link; no world link stands before it, for every simulator fixes or frees a root by
 itself. Textured visuals carry no `<material>`: where both are given, some viewers drop the texture.
@@ -6,26 +6,24 @@ itself. Textured visuals carry no `<material>`: where both are given, some viewe
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
-from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 from pydantic import Field
 
 from simart_kit.arrays import FloatArray
-from simart_kit.asset import Asset, ConvexMesh, Joint, MassProperties, Part
+from simart_kit.asset import Asset, Joint
 from simart_kit.bake import textured_surfaces
 from simart_kit.hookspecs import Register, hookimpl
 from simart_kit.kinematics import ordered_joints, rest_origin
 from simart_kit.stages import Exporter
 from simart_kit.stages import Options as StageOptions
-from simart_kit.surfaces import Surface, asset_surfaces
+from simart_kit.surfaces import asset_surfaces
 
 from .gaps import joined, look_gaps, rigid
-from .obj_files import srgb_color, write_hull, write_surface
-from .sheets import backed, backed_hull, is_speck
+from .urdf_links import MeshFolder, add_gazebo, add_link
+from .urdf_text import numbers, write_xml
 
 _FOLDER = "meshes"
 
@@ -42,26 +40,31 @@ class Urdf(Exporter):
             default=False,
             description="Write the dry friction of joints [N*m | N]; Drake is strict and refuses it.",
         )
+        package_uris: bool = Field(
+            default=False,
+            description="Write a folder NAME that is a ROS package, and refer to its meshes by "
+            "package://NAME/... instead of by relative paths, which more loaders read.",
+        )
 
     options: Options
 
     def export(self, asset: Asset, directory: Path) -> Path:
         """Write the folder; returns NAME.urdf."""
-        folder = directory / _FOLDER
-        folder.mkdir()
+        home, folder = self._folders(asset.name, directory)
+        folder.path.mkdir(parents=True)
         robot = Element("robot", {"name": asset.name, "xmlns:drake": "http://drake.mit.edu"})
         # Without these MuJoCo drops visuals, merges links and looks for meshes beside the file.
         flags = {"discardvisual": "false", "fusestatic": "false", "strippath": "false"}
         SubElement(SubElement(robot, "mujoco"), "compiler", flags)
         surfaces = textured_surfaces(asset)
         for part in asset.parts:
-            _add_link(robot, part, surfaces[part.name], rest_origin(asset, part.name), folder)
+            add_link(robot, part, surfaces[part.name], rest_origin(asset, part.name), folder)
         for joint in ordered_joints(asset):
             _add_joint(robot, joint, rest_origin(asset, joint.parent), self.options.dynamics_friction)
         for part in asset.parts:
-            _add_gazebo(robot, part)
-        _write_xml(_package(asset.name), directory / "package.xml")
-        return _write_xml(robot, directory / f"{asset.name}.urdf")
+            add_gazebo(robot, part)
+        write_xml(_package(asset.name), home / "package.xml")
+        return write_xml(robot, home / f"{asset.name}.urdf")
 
     def unsupported(self, asset: Asset) -> tuple[str, ...]:
         """A sentence for each thing that is lost."""
@@ -84,6 +87,10 @@ class Urdf(Exporter):
                 [j.name for j in joints if j.moves and j.friction and rough],
             ),
             (
+                "URDF has no place for the inertia that solvers add (armature): none for",
+                [j.name for j in joints if not rigid(j) and j.armature],
+            ),
+            (
                 "no mass is known: <inertial> is left out, and MuJoCo refuses the file where the part moves",
                 [p.name for p in asset.parts if p.mass is None],
             ),
@@ -91,77 +98,29 @@ class Urdf(Exporter):
         base = ("URDF cannot say that the base is free: load it without fixing the base",)
         return (base if asset.floating else ()) + joined(found) + look_gaps(asset_surfaces(asset))
 
-
-def _add_link(
-    robot: Element, part: Part, surfaces: Sequence[Surface], origin: FloatArray, folder: Path
-) -> None:
-    link = SubElement(robot, "link", {"name": part.name})
-    if part.mass:
-        _add_inertial(link, part.mass, origin)
-    for surface in surfaces:
-        if not is_speck(surface):
-            _add_visual(link, backed(surface), folder)
-    for index, hull in enumerate(part.collision):
-        _add_collision(link, part, index, hull, origin, folder)
-    contact = SubElement(link, "contact")
-    SubElement(contact, "lateral_friction", {"value": _text(part.material.friction)})
-    SubElement(contact, "restitution", {"value": _text(part.material.restitution)})
-
-
-def _add_inertial(link: Element, mass: MassProperties, origin: FloatArray) -> None:
-    inertial = SubElement(link, "inertial")
-    SubElement(inertial, "origin", {"xyz": _text(*(np.array(mass.center) - origin)), "rpy": "0 0 0"})
-    SubElement(inertial, "mass", {"value": _text(mass.mass)})
-    (xx, xy, xz), (_, yy, yz), (_, _, zz) = mass.inertia
-    moments = {"ixx": xx, "ixy": xy, "ixz": xz, "iyy": yy, "iyz": yz, "izz": zz}
-    SubElement(inertial, "inertia", {name: _text(value) for name, value in moments.items()})
-
-
-def _add_visual(link: Element, surface: Surface, folder: Path) -> None:
-    name = f"{surface.part}_visual_{surface.index}"
-    visual = SubElement(link, "visual", {"name": name})
-    _add_mesh(visual, write_surface(surface, folder))
-    if surface.material.base_color_image is None:
-        material = SubElement(visual, "material", {"name": name})
-        SubElement(material, "color", {"rgba": _text(*srgb_color(surface.material), digits=6)})
-
-
-def _add_collision(
-    link: Element, part: Part, index: int, hull: ConvexMesh, origin: FloatArray, folder: Path
-) -> None:
-    collision = SubElement(link, "collision", {"name": f"{part.name}_collision_{index}"})
-    _add_mesh(collision, write_hull(part.name, backed_hull(hull), origin, folder))
-    properties = SubElement(collision, "drake:proximity_properties")
-    for name in ("mu_dynamic", "mu_static"):
-        SubElement(properties, f"drake:{name}", {"value": _text(part.material.friction)})
-
-
-def _add_mesh(parent: Element, file: str) -> None:
-    SubElement(parent, "origin", {"xyz": "0 0 0", "rpy": "0 0 0"})
-    SubElement(SubElement(parent, "geometry"), "mesh", {"filename": f"{_FOLDER}/{file}"})
+    def _folders(self, name: str, directory: Path) -> tuple[Path, MeshFolder]:
+        """Where the file is, and its meshes: many resolvers take a package's name for that of its folder."""
+        if self.options.package_uris:
+            home = directory / name
+            return home, MeshFolder(home / _FOLDER, f"package://{name}/{_FOLDER}")
+        return directory, MeshFolder(directory / _FOLDER, _FOLDER)
 
 
 def _add_joint(robot: Element, joint: Joint, parent_origin: FloatArray, friction: bool) -> None:
     kind = "fixed" if rigid(joint) or joint.kind in ("ball", "free") else joint.kind
     element = SubElement(robot, "joint", {"name": joint.name, "type": kind})
-    SubElement(element, "origin", {"xyz": _text(*(np.array(joint.origin) - parent_origin)), "rpy": "0 0 0"})
+    SubElement(element, "origin", {"xyz": numbers(*(np.array(joint.origin) - parent_origin)), "rpy": "0 0 0"})
     SubElement(element, "parent", {"link": joint.parent})
     SubElement(element, "child", {"link": joint.child})
     if kind == "fixed":
         return
-    SubElement(element, "axis", {"xyz": _text(*joint.axis)})
-    limit = {"effort": _text(joint.effort), "velocity": _text(joint.velocity)}
+    SubElement(element, "axis", {"xyz": numbers(*joint.axis)})
+    limit = {"effort": numbers(joint.effort), "velocity": numbers(joint.velocity)}
     if joint.limits:
-        limit = {"lower": _text(joint.limits.lower), "upper": _text(joint.limits.upper)} | limit
+        limit = {"lower": numbers(joint.limits.lower), "upper": numbers(joint.limits.upper)} | limit
     SubElement(element, "limit", limit)
-    dynamics = {"damping": _text(joint.damping)}
-    SubElement(element, "dynamics", dynamics | ({"friction": _text(joint.friction)} if friction else {}))
-
-
-def _add_gazebo(robot: Element, part: Part) -> None:
-    gazebo = SubElement(robot, "gazebo", {"reference": part.name})
-    for name in ("mu1", "mu2"):
-        SubElement(gazebo, name).text = _text(part.material.friction)
+    dynamics = {"damping": numbers(joint.damping)}
+    SubElement(element, "dynamics", dynamics | ({"friction": numbers(joint.friction)} if friction else {}))
 
 
 def _package(name: str) -> Element:
@@ -172,16 +131,6 @@ def _package(name: str) -> Element:
     SubElement(package, "maintainer", {"email": "nobody@localhost"}).text = "nobody"
     SubElement(package, "license").text = "as the source mesh"
     return package
-
-
-def _write_xml(root: Element, path: Path) -> Path:
-    ElementTree.indent(root)
-    path.write_bytes(ElementTree.tostring(root, "utf-8", xml_declaration=True) + b"\n")
-    return path
-
-
-def _text(*values: float, digits: int = 12) -> str:
-    return " ".join(f"{value + 0.0:.{digits}g}" for value in values)
 
 
 @hookimpl
