@@ -117,10 +117,11 @@ def _usd_look(mesh: UsdGeom.Mesh, weights: Floats) -> Look:
     if node.GetIdAttr().Get() == "UsdUVTexture":
         picture = np.asarray(Image.open(node.GetInput("file").Get().resolvedPath).convert("RGB"))
         assert tuple(node.GetInput("scale").Get())[:3] == (1.0, 1.0, 1.0)
-        uv = np.array(primvars.GetPrimvar("st").Get())
+        uv = np.array(primvars.GetPrimvar("st").ComputeFlattened())
         return _textured(points[faces], uv[faces], picture, weights)
     assert node.GetIdAttr().Get() == "UsdPrimvarReader_float3"
-    linear = np.array(primvars.GetPrimvar(node.GetInput("varname").Get()).Get(), dtype=np.float64)
+    name = node.GetInput("varname").Get()
+    linear = np.array(primvars.GetPrimvar(name).ComputeFlattened(), dtype=np.float64)
     curve = 1.055 * np.maximum(linear, 0.0031308) ** (1 / 2.4) - 0.055  # IEC 61966-2-1
     return _colored(points[faces], 255 * np.where(linear <= 0.0031308, 12.92 * linear, curve)[faces], weights)
 

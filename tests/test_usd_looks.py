@@ -71,11 +71,11 @@ def test_vertex_colors_become_linear_and_are_what_the_material_reads(tmp_path: P
     stage = open_stage(export(asset, tmp_path / "usd"))
     mesh = UsdGeom.Mesh.Get(stage, "/painted/body/visual_1")
     low = np.array(mesh.GetPointsAttr().Get())[:, 2] < 0.4
-    colors = np.array(mesh.GetDisplayColorPrimvar().Get())
+    colors = np.array(mesh.GetDisplayColorPrimvar().ComputeFlattened())
     # sRGB 128 is 0.2158605 in linear light (IEC 61966-2-1).
     assert colors[low] == pytest.approx(np.tile([1.0, 0.0, 0.0], (low.sum(), 1)))
     assert colors[~low] == pytest.approx(np.full(((~low).sum(), 3), 0.2158605), abs=1e-6)
-    opacity = np.array(mesh.GetDisplayOpacityPrimvar().Get())
+    opacity = np.array(mesh.GetDisplayOpacityPrimvar().ComputeFlattened())
     assert opacity == pytest.approx(np.where(low, 1.0, 128 / 255), abs=1e-6)
     material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
     assert varnames(material) == {"displayColor", "displayOpacity"}

@@ -84,9 +84,11 @@ ASSETS = {
 }
 
 
-def export(asset: Asset, directory: Path, **options: str) -> Path:
+def export(asset: Asset, directory: Path, **options: object) -> Path:
+    """The main file of an export, without a thumbnail unless the options ask for one."""
     directory.mkdir()
-    return UsdExporter(UsdExporter.Options.model_validate(options)).export(asset, directory)
+    chosen = UsdExporter.Options.model_validate({"thumbnail": False, **options})
+    return UsdExporter(chosen).export(asset, directory)
 
 
 def children(stage: Usd.Stage, part: str) -> list[Usd.Prim]:

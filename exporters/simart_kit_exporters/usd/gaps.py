@@ -14,13 +14,13 @@ def gaps(asset: Asset) -> tuple[str, ...]:
     moving = [j for j in asset.joints if j.moves]
     return joined(
         (
-            ("UsdPhysics has no dry friction in joints: none for", [j.name for j in moving if j.friction]),
             (
-                "UsdPhysics has no speed limit of joints: none for",
-                [j.name for j in moving if j.kind != "free"],
+                "UsdPhysics has no friction, armature or speed limit of joints, so that only Newton and "
+                "MuJoCo read them, from attributes of their own, and MuJoCo has no speed limits either",
+                [j.name for j in moving if j.kind != "free" and (j.friction or j.armature or j.velocity)],
             ),
             (
-                "UsdPhysics has no drive of ball joints: no damping for",
+                "UsdPhysics has no drive of ball joints, so that only Newton and MuJoCo read their damping",
                 [j.name for j in moving if j.kind == "ball" and j.damping],
             ),
             (

@@ -43,7 +43,7 @@ def write_texture(image: Image, slot: str, directory: Path) -> str:
     """Write an image under a name made from its bytes; return its path relative to `directory`."""
     name = f"{slot}_{hashlib.sha256(image.png).hexdigest()[:16]}.png"
     path = directory / TEXTURES / name
-    path.parent.mkdir(exist_ok=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(image.png)
     return f"./{TEXTURES}/{name}"
 

@@ -7,49 +7,48 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from simart_kit.arrays import FloatArray
-from simart_kit.asset import ConvexMesh, MassProperties, Material
+from simart_kit.asset import MassProperties, Material
 
 from .frames import principal_axes, quaternion
-from .geometry import define_hull
 
 if TYPE_CHECKING:
     from pxr import Sdf, Usd, UsdGeom, UsdShade
 
 
-def define_body(stage: Usd.Stage, path: Sdf.Path, origin: FloatArray) -> UsdGeom.Xform:
-    """Author a rigid body whose frame has the asset's axes and sits at `origin` (3,) [m]."""
-    from pxr import Gf, UsdGeom, UsdPhysics
+def define_frame(stage: Usd.Stage, path: Sdf.Path, origin: FloatArray) -> UsdGeom.Xform:
+    """Author the frame of a body, which has the asset's axes and sits at `origin` (3,) [m]."""
+    from pxr import Gf, UsdGeom
 
-    body = UsdGeom.Xform.Define(stage, path)
-    body.AddTranslateOp().Set(Gf.Vec3d(*origin.tolist()))
-    UsdPhysics.RigidBodyAPI.Apply(body.GetPrim())
-    return body
+    frame = UsdGeom.Xform.Define(stage, path)
+    frame.AddTranslateOp().Set(Gf.Vec3d(*origin.tolist()))
+    return frame
 
 
-def set_mass(body: UsdGeom.Xform, mass: MassProperties, origin: FloatArray) -> None:
-    """Author mass, centre and inertia of a body at `origin` (3,) [m], so that no simulator guesses them."""
+def make_body(frame: UsdGeom.Xform, mass: MassProperties | None, origin: FloatArray) -> None:
+    """Make a frame at `origin` (3,) [m] a rigid body, with mass, centre and inertia where they are known."""
     from pxr import Gf, UsdPhysics
 
+    UsdPhysics.RigidBodyAPI.Apply(frame.GetPrim())
+    if mass is None:
+        return
     moments, axes = principal_axes(mass.inertia)
-    api = UsdPhysics.MassAPI.Apply(body.GetPrim())
+    api = UsdPhysics.MassAPI.Apply(frame.GetPrim())
     api.CreateMassAttr(mass.mass)
     api.CreateCenterOfMassAttr(Gf.Vec3f(*(np.array(mass.center) - origin).tolist()))
     api.CreateDiagonalInertiaAttr(Gf.Vec3f(*moments.tolist()))
     api.CreatePrincipalAxesAttr(quaternion(axes))
 
 
-def define_collider(
-    stage: Usd.Stage, path: Sdf.Path, shape: ConvexMesh, origin: FloatArray, surface: UsdShade.Material
-) -> None:
-    """Author a convex collider of a body at `origin` (3,) [m]."""
-    from pxr import UsdPhysics, UsdShade
+def make_collider(gprim: UsdGeom.Gprim, surface: UsdShade.Material) -> None:
+    """Make a convex mesh or a primitive collide, and slide as its physics material says."""
+    from pxr import UsdGeom, UsdPhysics, UsdShade
 
-    mesh = define_hull(stage, path, shape, origin)
-    UsdPhysics.CollisionAPI.Apply(mesh.GetPrim())
-    hull = UsdPhysics.MeshCollisionAPI.Apply(mesh.GetPrim())
-    hull.CreateApproximationAttr(UsdPhysics.Tokens.convexHull)
-    binding = UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim())
-    binding.Bind(surface, materialPurpose="physics")
+    prim = gprim.GetPrim()
+    UsdPhysics.CollisionAPI.Apply(prim)
+    if prim.IsA(UsdGeom.Mesh):
+        hull = UsdPhysics.MeshCollisionAPI.Apply(prim)
+        hull.CreateApproximationAttr(UsdPhysics.Tokens.convexHull)
+    UsdShade.MaterialBindingAPI.Apply(prim).Bind(surface, materialPurpose="physics")
 
 
 def define_physics_material(stage: Usd.Stage, path: Sdf.Path, material: Material) -> UsdShade.Material:

@@ -11,11 +11,14 @@ from simart_kit.mesh import VisualMaterial
 from simart_kit.surfaces import Surface, asset_surfaces
 
 from ..overlaps import overlapping_strangers
-from .geometry import define_surface
+from .draft import Draft
+from .geometry import define_shape, define_surface
 from .joints import define_fixed_base, define_joint
 from .looks import by_material
 from .materials import define_look
-from .physics import define_body, define_collider, define_physics_material, filter_contact, set_mass
+from .physics import define_frame, define_physics_material, filter_contact, make_body, make_collider
+from .runtimes import mark_mujoco, mark_newton, set_mujoco, set_newton
+from .semantics import category, label
 
 if TYPE_CHECKING:
     from pxr import Sdf, Usd, UsdShade
@@ -27,32 +30,22 @@ if TYPE_CHECKING:
 JOINTS, LOOKS, SLIDES = "Joints", "Materials", "PhysicsMaterials"
 
 
-def asset_stage(asset: Asset, directory: Path) -> Usd.Stage:
-    """Author an asset in memory; textures are written into `directory`, beside which the layer belongs."""
-    stage = _new_stage(asset.name)
-    surfaces = asset_surfaces(asset)
-    looks = _define_looks(stage, [s for group in surfaces.values() for s in group], directory)
-    slides = _define_slides(stage, asset)
+def write_asset(draft: Draft, asset: Asset, directory: Path) -> None:
+    """Author an asset; textures are written into `directory`, beside which the layer of looks belongs."""
+    stage, surfaces = draft.stage, asset_surfaces(asset)
+    root = stage.GetDefaultPrim()
+    label(root, "class", asset.name)
+    label(root, "wikidata_qcode", category(asset).qcode)
+    with draft.writing("materials"):
+        looks = _define_looks(stage, [s for group in surfaces.values() for s in group], directory)
+    with draft.writing("physics"):
+        slides = _define_slides(stage, asset)
     for part in asset.parts:
-        _define_part(stage, asset, part, slides)
-        _define_surfaces(stage, part, surfaces[part.name], looks)
-    _define_joints(stage, asset)
-    _filter_overlaps(stage, asset)
-    return stage
-
-
-def _new_stage(name: str) -> Usd.Stage:
-    from pxr import Kind, Usd, UsdGeom, UsdPhysics
-
-    stage = Usd.Stage.CreateInMemory()
-    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
-    UsdGeom.SetStageMetersPerUnit(stage, 1.0)
-    UsdPhysics.SetStageKilogramsPerUnit(stage, 1.0)
-    root = UsdGeom.Xform.Define(stage, f"/{name}").GetPrim()
-    stage.SetDefaultPrim(root)
-    Usd.ModelAPI(root).SetKind(Kind.Tokens.component)
-    _label(root, "class", name)
-    return stage
+        _define_part(draft, asset, part, slides)
+        _define_surfaces(draft, part, surfaces[part.name], looks)
+    _define_joints(draft, asset)
+    with draft.writing("physics"):
+        _filter_overlaps(stage, asset)
 
 
 def _define_looks(stage: Usd.Stage, surfaces: list[Surface], directory: Path) -> Looks:
@@ -75,43 +68,59 @@ def _material_paths(stage: Usd.Stage, scope: str, names: list[str]) -> list[Sdf.
     parent = _scope(stage, scope)
     clean = unique_names([clean_name(name, "material") for name in names])
     for name in clean:
-        _label(stage.DefinePrim(parent.AppendChild(name), "Material"), "material", name)
+        label(stage.DefinePrim(parent.AppendChild(name), "Material"), "material", name)
     return [parent.AppendChild(name) for name in clean]
 
 
-def _define_part(stage: Usd.Stage, asset: Asset, part: Part, slides: Slides) -> None:
-    origin = rest_origin(asset, part.name)
+def _define_part(draft: Draft, asset: Asset, part: Part, slides: Slides) -> None:
+    stage, origin = draft.stage, rest_origin(asset, part.name)
     path = stage.GetDefaultPrim().GetPath().AppendChild(part.name)
-    body = define_body(stage, path, origin)
-    _label(body.GetPrim(), "class", part.label or part.name)
-    if part.mass:
-        set_mass(body, part.mass, origin)
+    frame = define_frame(stage, path, origin)
+    label(frame.GetPrim(), "class", part.label or part.name)
+    with draft.writing("physics"):
+        make_body(frame, part.mass, origin)
     for number, shape in enumerate(part.collision, 1):
-        define_collider(stage, path.AppendChild(f"collision_{number}"), shape, origin, slides[part.material])
+        with draft.writing("geometries"):
+            gprim = define_shape(stage, path.AppendChild(f"collision_{number}"), shape, origin)
+        with draft.writing("physics"):
+            make_collider(gprim, slides[part.material])
+        with draft.writing("newton"):
+            mark_newton(gprim)
+        with draft.writing("mujoco"):
+            mark_mujoco(gprim)
 
 
-def _define_surfaces(stage: Usd.Stage, part: Part, surfaces: tuple[Surface, ...], looks: Looks) -> None:
+def _define_surfaces(draft: Draft, part: Part, surfaces: tuple[Surface, ...], looks: Looks) -> None:
     from pxr import UsdShade
 
-    path = stage.GetDefaultPrim().GetPath().AppendChild(part.name)
+    path = draft.stage.GetDefaultPrim().GetPath().AppendChild(part.name)
     for number, surface in enumerate(surfaces, 1):
-        mesh = define_surface(stage, path.AppendChild(f"visual_{number}"), surface)
-        UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(looks[surface.material])
+        with draft.writing("geometries"):
+            mesh = define_surface(draft.stage, path.AppendChild(f"visual_{number}"), surface)
+        with draft.writing("instances"):
+            UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(looks[surface.material])
 
 
-def _define_joints(stage: Usd.Stage, asset: Asset) -> None:
+def _define_joints(draft: Draft, asset: Asset) -> None:
     from pxr import UsdPhysics
 
-    scope = _scope(stage, JOINTS)
+    stage = draft.stage
     base = stage.GetDefaultPrim().GetPath().AppendChild(asset.root.name)
     jointed = [j for j in ordered_joints(asset) if j.kind != "free"]
-    if not asset.floating:
-        define_fixed_base(stage, scope.AppendChild("FixedBase"), base)
-    elif jointed:
-        UsdPhysics.ArticulationRootAPI.Apply(stage.GetPrimAtPath(base))
-    for joint in jointed:
-        origin = rest_origin(asset, joint.child) - rest_origin(asset, joint.parent)
-        define_joint(stage, scope.AppendChild(joint.name), joint, origin)
+    with draft.writing("physics"):
+        scope = _scope(stage, JOINTS)
+        if not asset.floating:
+            define_fixed_base(stage, scope.AppendChild("FixedBase"), base)
+        elif jointed:
+            UsdPhysics.ArticulationRootAPI.Apply(stage.GetPrimAtPath(base))
+        for joint in jointed:
+            origin = rest_origin(asset, joint.child) - rest_origin(asset, joint.parent)
+            define_joint(stage, scope.AppendChild(joint.name), joint, origin)
+    for joint in (j for j in jointed if j.moves):
+        with draft.writing("newton"):
+            set_newton(stage.GetPrimAtPath(scope.AppendChild(joint.name)), joint)
+        with draft.writing("mujoco"):
+            set_mujoco(stage.GetPrimAtPath(scope.AppendChild(joint.name)), joint)
 
 
 def _filter_overlaps(stage: Usd.Stage, asset: Asset) -> None:
@@ -125,10 +134,3 @@ def _scope(stage: Usd.Stage, name: str) -> Sdf.Path:
     from pxr import UsdGeom
 
     return UsdGeom.Scope.Define(stage, stage.GetDefaultPrim().GetPath().AppendChild(name)).GetPath()
-
-
-def _label(prim: Usd.Prim, taxonomy: str, label: str) -> None:
-    """Say what a prim is, for synthetic data."""
-    from pxr import UsdSemantics
-
-    UsdSemantics.LabelsAPI.Apply(prim, taxonomy).CreateLabelsAttr([label])
