@@ -12,11 +12,13 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING
 
 from .hookspecs import hookimpl
-from .stages import Exporter, JointPredictor, Modifier, Options, PartGuess, Segmentation, Segmenter
+from .stages import Check, Exporter, JointPredictor, Modifier, Options, PartGuess, Segmentation, Segmenter
 
 if TYPE_CHECKING:
     from .asset import Asset, ConvexMesh, Joint, Limits, MassProperties, Material, Part, Scale
     from .asset_io import load_asset, save_asset
+    from .checks import CheckResult
+    from .checks.subject import Subject
     from .errors import (
         AmbiguousPluginError,
         BadInputError,
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
     from .mesh import Image, Mesh, Note, VisualMaterial
     from .pipeline import Result, convert
     from .plugins import Plugins
+    from .primitives import Primitive
     from .report import Report
     from .runner import Run
 
@@ -39,6 +42,8 @@ __version__ = version("simart-kit")
 _HOMES = {
     "asset": ("Asset", "ConvexMesh", "Joint", "Limits", "MassProperties", "Material", "Part", "Scale"),
     "asset_io": ("load_asset", "save_asset"),
+    "checks": ("CheckResult",),
+    "checks.subject": ("Subject",),
     "errors": (
         "AmbiguousPluginError",
         "BadInputError",
@@ -52,6 +57,7 @@ _HOMES = {
     "mesh": ("Image", "Mesh", "Note", "VisualMaterial"),
     "pipeline": ("Result", "convert"),
     "plugins": ("Plugins",),
+    "primitives": ("Primitive",),
     "report": ("Report",),
     "runner": ("Run",),
 }
@@ -61,6 +67,8 @@ __all__ = [
     "AmbiguousPluginError",
     "Asset",
     "BadInputError",
+    "Check",
+    "CheckResult",
     "ConvexMesh",
     "Exporter",
     "Image",
@@ -78,6 +86,7 @@ __all__ = [
     "PartGuess",
     "PluginError",
     "Plugins",
+    "Primitive",
     "RecipeError",
     "Report",
     "Result",
@@ -87,6 +96,7 @@ __all__ = [
     "Segmenter",
     "SimartKitError",
     "StageError",
+    "Subject",
     "UnknownPluginError",
     "VisualMaterial",
     "convert",

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from .mesh import Mesh
     from .report import Report
     from .runner import Run
-    from .stages import Exporter, JointPredictor, Modifier, Segmenter
+    from .stages import Check, Exporter, JointPredictor, Modifier, Segmenter
 
 hookspec = pluggy.HookspecMarker("simart_kit")
 hookimpl = pluggy.HookimplMarker("simart_kit")
@@ -20,7 +20,7 @@ hookimpl = pluggy.HookimplMarker("simart_kit")
 class Register(Protocol):
     """What a `register_*` hook is called with: pass it a stage class."""
 
-    def __call__(self, stage: type[Segmenter | JointPredictor | Modifier | Exporter], /) -> None: ...
+    def __call__(self, stage: type[Segmenter | JointPredictor | Modifier | Exporter | Check], /) -> None: ...
 
 
 class RegisterRecipe(Protocol):
@@ -57,6 +57,11 @@ def register_modifiers(register: Register) -> None:
 @hookspec
 def register_exporters(register: Register) -> None:
     """Register Exporter classes."""
+
+
+@hookspec
+def register_checks(register: Register) -> None:
+    """Register Check classes."""
 
 
 @hookspec

@@ -13,14 +13,16 @@ from .assemble import assemble, checked
 from .asset import Asset, clean_name
 from .asset_io import save_asset
 from .checks import run_checks
+from .checks.subject import Subject
 from .errors import SimartKitError, StageError
 from .exports import export_all
 from .loading import Source, read_source, source_path
 from .mesh import Note, UpAxis
 from .output import PROVENANCE, commit, forget_failure, hashes, keep_failure, left_over, staging
+from .physics_overrides import overridden
 from .plugins import Plugins
 from .provenance import provenance, write_json
-from .recipe import Recipe, build, load_recipe
+from .recipe import Recipe, build, build_checks, load_recipe
 from .report import Report
 from .runner import Run, Runner
 from .stages import JointPredictor, Modifier, Segmentation, Segmenter
@@ -122,7 +124,8 @@ def _articulate(
 
     def predicted(segmentation: Segmentation) -> Asset:
         joints = stage.predict(segmentation.mesh_of(loaded.mesh), segmentation)
-        return assemble(name, loaded.mesh, segmentation, joints, loaded.asset_from_source, floating)
+        asset = assemble(name, loaded.mesh, segmentation, joints, loaded.asset_from_source, floating)
+        return overridden(asset, recipe.physics)
 
     return runner.stage("joints", registration, predicted, segmentation)
 
@@ -145,10 +148,10 @@ def _write(runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset) -> tu
     from .render import write_preview
 
     work = runner.run.folder
-    checks = runner.call("check", "checks", run_checks, asset)
     save_asset(asset, work)
     runner.call("preview", "preview", write_preview, asset, work / "preview.png")
     mains, unsupported = export_all(runner, plugins, recipe, asset)
+    checks = runner.call("check", "checks", run_checks, build_checks(recipe, plugins), Subject(mains, asset))
     report = Report(runner.run.name, asset, checks, asset.notes + runner.notes, unsupported, runner.seconds)
     runner.tell("run_finished", report=report)
     write_json(work / "report.json", report.table())

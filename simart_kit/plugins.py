@@ -17,7 +17,7 @@ from . import hookspecs
 from .commands import PluginCommand, checked_name
 from .errors import AmbiguousPluginError, PluginError, StageError, UnknownPluginError
 from .plugin_import import import_plugin
-from .stages import Exporter, JointPredictor, Modifier, Options, Segmenter, Stage
+from .stages import Check, Exporter, JointPredictor, Modifier, Options, Segmenter, Stage
 
 DEFAULT_PLUGINS = (
     "simart_kit_plugins.loaders.trimesh_loader",
@@ -30,10 +30,14 @@ DEFAULT_PLUGINS = (
     "simart_kit_plugins.modifiers.snap",
     "simart_kit_plugins.modifiers.sweep",
     "simart_kit_plugins.modifiers.mass",
+    "simart_kit_plugins.modifiers.dynamics",
     "simart_kit_plugins.modifiers.collision",
     "simart_kit_exporters.urdf",
     "simart_kit_exporters.mjcf",
     "simart_kit_exporters.usd",
+    "simart_kit_exporters.usdz",
+    "simart_kit_exporters.glb",
+    "simart_kit.checks.builtin",
     "simart_kit_plugins.recorder:Recorder",
 )
 # Those of them with commands: all that the command line imports to list its commands.
@@ -43,6 +47,7 @@ STAGE_HOOKS: dict[str, type[Stage]] = {
     "register_joint_predictors": JointPredictor,
     "register_modifiers": Modifier,
     "register_exporters": Exporter,
+    "register_checks": Check,
 }
 
 
@@ -69,7 +74,7 @@ class Registration:
     """A stage class, a recipe file or a command under its name.
 
     Attributes:
-        kind: "segmenter", "joint predictor", "modifier", "exporter", "recipe" or "command".
+        kind: "segmenter", "joint predictor", "modifier", "exporter", "check", "recipe" or "command".
         name: what recipes call it, or what is typed.
         value: the class, the recipe's path, or a `PluginCommand`.
         owner: where it came from.

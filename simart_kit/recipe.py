@@ -10,10 +10,11 @@ from typing import Any, Literal, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from .errors import PluginError, RecipeError, UnknownPluginError
+from .physics_overrides import PhysicsTable
 from .plugins import Plugins, Registration
 from .recipe_files import LISTS, Table, read_table
 from .recipe_files import packaged_recipes as packaged_recipes
-from .stages import Options, Stage
+from .stages import Check, Options, Stage
 
 S = TypeVar("S", bound=Stage)
 _SINGLES = {"segmenter": "segmenter", "joints": "joint predictor"}
@@ -53,6 +54,12 @@ class Recipe(BaseModel):
     joints: Use = Field(description="Says how the parts move.")
     modify: tuple[Use, ...] = Field(default=(), description="Modifiers, in order.")
     export: tuple[Use, ...] = Field(default=(), description="Exporters.")
+    physics: PhysicsTable = Field(
+        default=PhysicsTable(), description="Materials and masses that a person states."
+    )
+    checks: dict[str, Table | Literal[False]] = Field(
+        default_factory=dict, description="Thresholds of checks by name, or false to leave one out."
+    )
 
     def table(self) -> Table:
         """The recipe as plain values, a valid recipe itself."""
@@ -116,6 +123,13 @@ def build(use: Use, base: type[S], plugins: Plugins, seed: int) -> tuple[S, Regi
         raise registration.failure(cause) from cause
 
 
+def build_checks(recipe: Recipe, plugins: Plugins) -> list[tuple[Check, Registration]]:
+    """The checks that a recipe does not leave out, in the order in which they are registered."""
+    names = [r.name for r in plugins.registrations(Check.kind) if recipe.checks.get(r.name) is not False]
+    uses = [Use(use=name, options=recipe.checks.get(name) or {}) for name in dict.fromkeys(names)]
+    return [build(use, Check, plugins, recipe.seed) for use in uses]
+
+
 def read_options(stage: type[Stage], table: Any) -> Options:
     """Validate an options table; by way of JSON, so that TOML arrays may fill tuples in strict mode."""
     return stage.Options.model_validate_json(json.dumps(table, default=str))
@@ -130,6 +144,10 @@ def _with_defaults(recipe: Recipe, plugins: Plugins) -> Recipe:
 
     changed: Table = {key: full(getattr(recipe, key), kind) for key, kind in _SINGLES.items()}
     changed |= {key: tuple(full(use, kind) for use in getattr(recipe, key)) for key, kind in LISTS.items()}
+    changed["checks"] = {
+        name: table if table is False else full(Use(use=name, options=table), Check.kind).options
+        for name, table in recipe.checks.items()
+    }
     return recipe.model_copy(update=changed)
 
 
@@ -141,6 +159,9 @@ def _stage_mistakes(table: Mapping[str, Any], plugins: Plugins) -> tuple[list[st
     for key, kind in LISTS.items():
         entries = table.get(key, [])
         uses += [(key, entry, kind) for entry in (entries if isinstance(entries, list) else [])]
+    thresholds = table.get("checks", {})
+    for name, options in thresholds.items() if isinstance(thresholds, Mapping) else ():
+        uses.append(("checks", {"use": name, "options": {} if options is False else options}, Check.kind))
     for key, use, kind in uses:
         if not isinstance(use, Mapping) or not isinstance(use.get("use"), str):
             continue  # told already by the recipe's own check
@@ -171,7 +192,7 @@ def _option_mistakes(place: str, stage: type[Stage], error: ValidationError) -> 
 def _told(location: tuple[int | str, ...], error: Any, known: str = "") -> str:
     place = ".".join(str(part) for part in location)
     text = f"{place}: {_WORDS.get(error['type'], error['msg'].removeprefix('Value error, '))}"
-    if error["type"] != "missing":
+    if error["type"] not in ("missing", "value_error"):
         text += f" (got {error['input']!r})"
     if error["type"] == "extra_forbidden" and known:
         text += f", known are {known}"

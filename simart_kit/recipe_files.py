@@ -52,7 +52,7 @@ def apply_set(table: Table, text: str) -> Table:
     key, equals, value_text = text.partition("=")
     if not equals or not key.strip():
         raise RecipeError(f"--set '{text}': write key=value, such as segmenter.options.max_parts=8")
-    path = key.strip().split(".")
+    path = [word.strip("\"'") for word in key.strip().split(".")]  # as TOML would quote them
     change: Any = _toml_value(value_text)
     if path[0] in LISTS and len(path) > 1:
         name, rest = path[1], path[2:]

@@ -1,4 +1,4 @@
-"""What a plugin subclasses: Segmenter, JointPredictor, Modifier, Exporter, and their Options."""
+"""What a plugin subclasses: Segmenter, JointPredictor, Modifier, Exporter, Check, and their Options."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from pydantic import BaseModel, ConfigDict
 if TYPE_CHECKING:
     from .arrays import IntArray
     from .asset import Asset, Joint
+    from .checks import CheckResult
+    from .checks.subject import Subject
     from .evidence import Evidence
     from .mesh import Mesh, Note
 
@@ -30,7 +32,7 @@ class Stage(ABC):
 
     Attributes:
         name: what recipes call it, unique within its kind.
-        kind: set by the four stage classes below.
+        kind: set by the stage classes below.
         options: validated.
         seed: the recipe's; make generators with `numpy.random.default_rng(self.seed)`.
     """
@@ -150,3 +152,16 @@ class Exporter(Stage):
     def unsupported(self, asset: Asset) -> tuple[str, ...]:
         """What this format cannot express of the asset and what is written instead, a sentence each."""
         return ()
+
+
+class Check(Stage):
+    """Judges a finished object by its files, and by the asset that they were made from, if known."""
+
+    kind = "check"
+
+    @abstractmethod
+    def check(self, subject: Subject) -> CheckResult:
+        """A verdict in one line, with the numbers behind it; the same every time.
+
+        Raise `BadInputError` when the files cannot be read or simulated: that is told as a failed check.
+        """

@@ -1,151 +1,189 @@
-"""Each check passes on sound assets and bites on broken ones."""
+"""All checks together: sound objects pass them in every format, and verdicts are told as they should be."""
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from simart_kit.arrays import mat3
-from simart_kit.asset import Asset, ConvexMesh, Joint, Limits, MassProperties
-from simart_kit.checks import run_checks
-from simart_kit.checks.collision import check_collision
-from simart_kit.checks.joints import check_joints
-from simart_kit.checks.mass import check_mass
-from simart_kit.testing.meshes import box, cabinet_asset, chain_asset, static_asset
+from simart_kit import Check, CheckResult, Options, Plugins, Subject
+from simart_kit.asset import Asset
+from simart_kit.checks import Fault, run_checks
+from simart_kit.errors import BadInputError, RecipeError, StageError
+from simart_kit.plugins import Registration
+from simart_kit.recipe import Recipe, build_checks, load_recipe
+from simart_kit.testing import fakes
+
+from .checks_cases import BUILT_IN, NAMES, SOUND, judged, subject_in
+
+ORDER = (
+    *("files", "lint", "agreement", "mass", "collision", "joints", "penetration", "sweep", "travel"),
+    *("settle", "gravity", "push", "energy", "timestep", "realtime"),
+)
 
 
-def with_door_mass(**changes: object) -> Asset:
-    asset = cabinet_asset()
-    door = asset.part("door")
-    assert door.mass is not None
-    return asset.with_parts({"door": replace(door, mass=replace(door.mass, **changes))})  # type: ignore[arg-type]
+@pytest.fixture(params=SOUND)
+def sound(request: pytest.FixtureRequest) -> Asset:
+    return SOUND[request.param]()
 
 
-def with_hinge(**changes: object) -> Asset:
-    asset = cabinet_asset()
-    return asset.with_joints({"door_hinge": replace(asset.joint("door_hinge"), **changes)})  # type: ignore[arg-type]
+def recipe_with(checks: dict[str, object]) -> Recipe:
+    given = load_recipe("default", BUILT_IN)
+    return given.model_copy(update={"checks": checks})
 
 
-def with_door_shapes(*shapes: ConvexMesh) -> Asset:
-    asset = cabinet_asset()
-    return asset.with_parts({"door": replace(asset.part("door"), collision=shapes)})
+def all_verdicts(subject: Subject) -> tuple[CheckResult, ...]:
+    return run_checks(build_checks(load_recipe("default", BUILT_IN), BUILT_IN), subject)
 
 
-@pytest.mark.parametrize("make", [cabinet_asset, chain_asset, static_asset])
-def test_sound_assets_pass_every_check_with_evidence(make: type) -> None:
-    results = run_checks(make())
-    assert [r.name for r in results] == ["collision", "joints", "mass"]
-    for result in results:
-        assert result.passed, result.text
-        assert result.evidence
-        assert "\n" not in result.text
+def test_the_checks_run_from_what_is_written_to_how_it_behaves() -> None:
+    assert NAMES == ORDER
 
 
-class TestMass:
+def test_sound_objects_pass_in_every_format_and_without_any(sound: Asset, tmp_path: Path) -> None:
+    made = subject_in(tmp_path, sound, "urdf", "mjcf", "usd", "usdz", "glb")
+    alone = [Subject({kind: path}) for kind, path in made.simulated.items()]
+    for subject in (made, Subject({}, sound), *alone):
+        results = all_verdicts(subject)
+        assert tuple(r.name for r in results) == ORDER
+        assert [r.text for r in results if not r.passed] == []
+
+
+def test_files_for_looking_at_are_simulated_by_their_asset(sound: Asset, tmp_path: Path) -> None:
+    subject = subject_in(tmp_path, sound, "usdz", "glb")
+    assert subject.simulated == {}
+    assert set(subject.simulation.mechanism.body) == {part.name for part in sound.parts}
+    assert all(result.passed for result in all_verdicts(subject))
+
+
+def test_what_is_simulated_is_the_first_of_mjcf_urdf_and_usd(tmp_path: Path) -> None:
+    """Bodies of one asset, of which each file has lost another part, tell which was taken."""
+    asset = SOUND["static"]()
+    others = {kind: replace(asset, parts=(replace(asset.parts[0], name=kind),)) for kind in ("urdf", "usd")}
+    files = {kind: subject_in(tmp_path, other, kind).files[kind] for kind, other in others.items()}
+    assert set(Subject(files, asset).simulation.mechanism.body) == {"urdf"}
+    assert set(Subject({"usd": files["usd"]}, asset).simulation.mechanism.body) == {"usd"}
+    assert set(Subject({}, asset).simulation.mechanism.body) == {"body"}
+
+
+def test_nothing_to_check_is_said_once() -> None:
+    results = {result.name: result for result in all_verdicts(Subject())}
+    assert results["files"].passed
+    assert "nothing to check: give" in results["agreement"].text
+    assert results["mass"].text == "cannot be judged, see agreement"
+    assert not any(result.passed for name, result in results.items() if name not in ("files", "lint"))
+
+
+class TestVerdicts:
+    def test_plain_values_have_no_infinite_number(self) -> None:
+        evidence = {"drift": float("nan"), "rows": [{"ratio": float("inf")}, (1, 2.5)], "told": "yes"}
+        fault = Fault({"hinge": 0.5}, (1.0, 2.0, 3.0), 0.004, "door in body")
+        table = CheckResult("mine", False, "no", evidence, fault).table()
+        assert json.loads(json.dumps(table, allow_nan=False)) == table
+        assert table["evidence"] == {"drift": None, "rows": [{"ratio": None}, [1, 2.5]], "told": "yes"}
+        assert table["fault"]["point"] == [1.0, 2.0, 3.0]
+        assert "fault" not in CheckResult("mine", True, "yes").table()
+
+    def test_bad_input_is_a_failed_check_and_its_reason_is_told_once(self) -> None:
+        damaged = BadInputError("box.xml is damaged")
+        made = plugins_with(fakes.check(error=damaged, name="one"), fakes.check(error=damaged, name="two"))
+        one, two = run_checks(made, Subject())
+        assert (one.passed, one.text) == (False, "box.xml is damaged")
+        assert (two.passed, two.text) == (False, "cannot be judged, see one")
+
+    def test_any_other_error_names_the_plugin(self) -> None:
+        with pytest.raises(StageError, match=r"check 'fake'.*no idea") as caught:
+            run_checks(plugins_with(fakes.check(error=RuntimeError("no idea"))), Subject())
+        assert isinstance(caught.value.__cause__, RuntimeError)
+
+
+def plugins_with(*checks: type[Check]) -> list[tuple[Check, Registration]]:
+    plugins = Plugins(installed=False, strict=True)
+    for check in checks:
+        plugins.register(fakes.plugin(check=check))
+    names = {check.name for check in checks}
+    return [pair for pair in build_checks(load_recipe("default", plugins), plugins) if pair[0].name in names]
+
+
+class TestRecipe:
+    def test_thresholds_reach_the_check(self) -> None:
+        made = {
+            check.name: check for check, _ in build_checks(recipe_with({"settle": {"tilt": 5.0}}), BUILT_IN)
+        }
+        assert made["settle"].options.tilt == 5.0  # type: ignore[attr-defined]
+
+    def test_false_leaves_a_check_out(self) -> None:
+        made = [check.name for check, _ in build_checks(recipe_with({"sweep": False}), BUILT_IN)]
+        assert made == [name for name in ORDER if name != "sweep"]
+
+    def test_a_resolved_recipe_spells_thresholds_out_and_repeats_them(self, tmp_path: Path) -> None:
+        path = tmp_path / "mine.toml"
+        path.write_text(
+            'schema = 1\nextends = "urdf"\n[checks]\nsweep = false\n[checks.settle]\nspeed = 0.01\n'
+        )
+        recipe = load_recipe(str(path), BUILT_IN)
+        assert recipe.checks["sweep"] is False
+        settle = recipe.checks["settle"]
+        assert settle == {"height": 0.02, "seconds": 3.0, "speed": 0.01, "tilt": 1.0, "sink": 0.005}
+        (tmp_path / "provenance.json").write_text(json.dumps({"recipe": recipe.table()}))
+        assert load_recipe(str(tmp_path / "provenance.json"), BUILT_IN) == recipe
+
     @pytest.mark.parametrize(
-        ("changes", "told"),
+        ("line", "told"),
         [
-            ({"mass": 0.0}, "not positive"),
-            ({"mass": float("nan")}, "not finite"),
-            ({"mass": 3000.0}, "density over its hull"),
-            ({"mass": 0.002}, "density over its hull"),
-            ({"center": (5.0, 0.0, 0.0)}, "centre of mass lies outside"),
-            ({"inertia": mat3(np.diag([1.0, 1.0, 3.0]))}, "triangle inequality"),
-            ({"inertia": mat3(np.diag([-1.0, 1.0, 1.0]))}, "not positive definite"),
-            ({"inertia": mat3(np.diag([1e-9, 1.0, 1.0]))}, "differ by a factor"),
-            ({"inertia": ((1.0, 0.5, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))}, "not symmetric"),
+            ("sette.tilt=5", "unknown check 'sette': known are agreement, collision, energy"),
+            ("settle.tild=5", "tild: no such key (got 5), known are height, seconds, speed, tilt, sink"),
+            ("settle.tilt=-5", "tilt"),
+            ("settle=true", "settle"),
         ],
     )
-    def test_it_bites(self, changes: dict[str, object], told: str) -> None:
-        result = check_mass(with_door_mass(**changes))
-        assert not result.passed
-        assert told in result.text
-        assert "door" in result.text
+    def test_mistakes_are_told_with_what_there_is(self, line: str, told: str) -> None:
+        with pytest.raises(RecipeError) as caught:
+            load_recipe("default", BUILT_IN, [f"checks.{line}"])
+        assert told in str(caught.value)
 
-    def test_a_part_without_mass(self) -> None:
-        result = check_mass(cabinet_asset(physics=False))
-        assert not result.passed
-        assert "body has no mass; door has no mass" in result.text
-
-    def test_parts_of_very_different_mass(self) -> None:
-        light = MassProperties(0.0015, (0.0, -0.19, 0.3), mat3(np.eye(3) * 1e-6))
-        asset = cabinet_asset()
-        asset = asset.with_parts({"door": replace(asset.part("door"), mass=light)})
-        result = check_mass(asset)
-        assert "times the lightest" in result.text
-        assert result.evidence["mass_ratio"] == pytest.approx(26.118 / 0.0015)
-
-    def test_a_fixed_base_may_be_heavy(self) -> None:
-        asset = cabinet_asset()
-        assert asset.root.mass is not None
-        heavy = replace(asset.root.mass, mass=asset.root.mass.mass * 500)
-        asset = asset.with_parts({"body": replace(asset.root, mass=heavy)})
-        assert "times the lightest" not in check_mass(asset).text
-        assert "times the lightest" in check_mass(replace(asset, floating=True)).text
+    def test_a_check_of_a_plugin_runs_after_the_built_in_ones(self) -> None:
+        plugins = Plugins(installed=False, strict=True)
+        plugins.register(fakes.plugin(check=Color))
+        recipe = load_recipe("default", plugins, ["checks.color.shade=0.5"])
+        check, registration = build_checks(recipe, plugins)[-1]
+        assert (check.name, check.options.shade) == ("color", 0.5)  # type: ignore[attr-defined]
+        (result,) = run_checks([(check, registration)], Subject({}, SOUND["static"]()))
+        assert result.text == "paler than 0.5"
 
 
-class TestJoints:
-    @pytest.mark.parametrize(
-        ("changes", "told"),
-        [
-            ({"limits": Limits(0.0, 0.0)}, "travels 0 rad"),
-            ({"limits": Limits(-90.0, 0.0)}, "travels 90 rad"),
-            ({"origin": (-2.75, -1.9, 0.0)}, "away from the object"),
-            ({"flags": ("sweep: the door hits the body",)}, "the door hits the body"),
-        ],
-    )
-    def test_it_bites(self, changes: dict[str, object], told: str) -> None:
-        result = check_joints(with_hinge(**changes))
-        assert not result.passed
-        assert told in result.text
-        assert "door_hinge" in result.text
+class Color(Check):
+    """Judges by the looks."""
 
-    @pytest.mark.parametrize("travel", [0.001, 300.0])
-    def test_a_drawer_that_hardly_moves_or_leaves_the_room(self, travel: float) -> None:
-        asset = cabinet_asset()
-        slide = replace(asset.joint("drawer_slide"), limits=Limits(0.0, travel))
-        assert "drawer_slide: it travels" in check_joints(asset.with_joints({"drawer_slide": slide})).text
+    name = "color"
 
-    def test_fixed_joints_do_not_count_as_moving(self) -> None:
-        asset = cabinet_asset()
-        fixed = Joint("door_hinge", "fixed", "body", "door")
-        result = check_joints(asset.with_joints({"door_hinge": fixed}))
-        assert result.passed
-        assert result.evidence["moving"] == 1
+    class Options(Options):
+        shade: float = 1.0
+
+    options: Options
+
+    def check(self, subject: Subject) -> CheckResult:
+        return CheckResult(self.name, True, f"paler than {self.options.shade:g}")  # type: ignore[attr-defined]
 
 
-class TestCollision:
-    sound = ConvexMesh(*box((-0.275, -0.23, 0.025), (0.275, -0.18, 0.52)))
-
-    def test_the_shape_used_below_is_sound(self) -> None:
-        assert check_collision(with_door_shapes(self.sound)).passed
-
-    def test_a_part_without_a_shape(self) -> None:
-        assert "door has no collision shape" in check_collision(with_door_shapes()).text
-
-    @pytest.mark.parametrize("damage", ["dent", "inside out", "hole", "flat"])
-    def test_a_shape_that_is_not_a_convex_solid(self, damage: str) -> None:
-        vertices, faces = self.sound.vertices.copy(), self.sound.faces.copy()
-        if damage == "dent":
-            vertices = np.concatenate([vertices, [vertices.mean(axis=0) + [0.0, -0.02, 0.0]]])
-            a, b, c = faces[4]
-            faces = np.concatenate([np.delete(faces, 4, axis=0), [[a, b, 8], [b, c, 8], [c, a, 8]]])
-        elif damage == "inside out":
-            faces = faces[:, ::-1]
-        elif damage == "hole":
-            faces = faces[:-1]
-        else:
-            vertices[:, 1] = -0.2
-        result = check_collision(with_door_shapes(ConvexMesh(vertices, faces)))
-        assert not result.passed
-        assert "door has a shape that is not convex" in result.text
-
-    def test_shapes_somewhere_else_or_too_small(self) -> None:
-        away = ConvexMesh(self.sound.vertices + [0.0, 0.0, 0.3], self.sound.faces)
-        small = ConvexMesh(*box((-0.05, -0.23, 0.2), (0.05, -0.18, 0.3)))
-        for shape in (away, small):
-            result = check_collision(with_door_shapes(shape))
-            assert not result.passed
-            assert "door: its shapes miss its bounds" in result.text
+def test_checks_answer_the_same_for_a_chair_placed_elsewhere() -> None:
+    """Where an object stands in its frame changes no verdict."""
+    asset = SOUND["cabinet"]()
+    away = np.array([3.0, -2.0, 1.0])
+    parts = {}
+    for part in asset.parts:
+        assert part.mass is not None
+        x, y, z = (float(v) for v in np.array(part.mass.center) + away)
+        shapes = tuple(replace(shape, vertices=shape.vertices + away) for shape in part.collision)
+        parts[part.name] = replace(part, mass=replace(part.mass, center=(x, y, z)), collision=shapes)
+    joints = {}
+    for joint in asset.joints:
+        x, y, z = (float(v) for v in np.array(joint.origin) + away)
+        joints[joint.name] = replace(joint, origin=(x, y, z))
+    mesh = replace(asset.mesh, vertices=asset.mesh.vertices + away)
+    moved = replace(asset, mesh=mesh).with_parts(parts).with_joints(joints)
+    for name in ("sweep", "settle", "push", "travel"):
+        assert judged(name, Subject({}, moved)).passed, name

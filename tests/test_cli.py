@@ -20,7 +20,7 @@ from simart_kit.cli.main import run
 from simart_kit.cli.progress import Bar, steps
 from simart_kit.plugins import Plugins
 from simart_kit.recipe import load_recipe
-from simart_kit.testing.meshes import cabinet_asset
+from simart_kit.testing.meshes import cabinet_asset, static_asset
 
 FAKES = '''
 import os, time
@@ -132,9 +132,9 @@ def test_convert_tells_what_was_found_and_where_it_is(home, capfd):
         "load fake",
         "segment labels",
         "joints joints",
-        "check",
         "preview",
         "export text",
+        "check",
     ]
 
 
@@ -202,7 +202,7 @@ def test_a_failed_json_run_is_one_document_too(home, capfd):
         (["convert"], 2, "MESH"),
         (["frobnicate"], 2, "frobnicate"),
         (["export", ".", "--to", "urdf"], 2, "has no asset.json"),
-        (["check", "nowhere"], 2, "has no asset.json"),
+        (["check", "nowhere"], 2, "nowhere: no such file or folder"),
         (["inspect", "."], 2, "has no recording"),
         (["recipes", "check", "nobody"], 2, "unknown recipe 'nobody'"),
         (["plugins", "show", "nobody"], 2, "unknown stage or command 'nobody'"),
@@ -342,7 +342,7 @@ def test_export_names_the_field_that_an_edit_broke(home, capfd):
 
 
 def test_check_fails_with_the_asset(home, capfd):
-    save_asset(cabinet_asset(), home / "good")
+    save_asset(static_asset(), home / "good")
     save_asset(cabinet_asset(physics=False), home / "bad")
 
     assert run(["check", "good"]) == 0

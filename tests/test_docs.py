@@ -64,7 +64,7 @@ def test_example_plugins_keep_their_contracts(written: Path) -> None:
     done = subprocess.run(command, cwd=written, capture_output=True, text=True, timeout=170)
     assert done.returncode == 0, done.stdout
     assert " skipped" not in done.stdout
-    assert sum(name.startswith("test_") for name in code_files()) == 3
+    assert sum(name.startswith("test_") for name in code_files()) == 4
 
 
 def test_example_plugins_run_from_their_files(
@@ -117,5 +117,5 @@ def test_command_of_the_page_works(written: Path) -> None:
 def test_testing_kit_is_documented() -> None:
     classes = [n for n, v in vars(contracts).items() if n.endswith("Contract") and n != "StageContract"]
     fixtures = [n for n, v in vars(pytest_plugin).items() if "fixture" in type(v).__name__.lower()]
-    assert len(classes) == len(fixtures) == 4
+    assert (len(classes), len(fixtures)) == (5, 4)
     assert [name for name in classes + fixtures if f"`{name}`" not in TEXT] == []

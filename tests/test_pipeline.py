@@ -420,9 +420,9 @@ def test_an_observer_that_raises_is_a_warning_and_the_others_still_hear(shop):
         "segment fake_labels",
         "joints fake_joints",
         "modify fake_note",
-        "check checks",
         "preview preview",
         "export fake_text",
+        "check checks",
         "finished cupboard",
     ]
 

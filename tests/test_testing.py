@@ -56,6 +56,11 @@ class Nosy(fakes.FakeObserver):
         register(fakes.segmenter(error=RuntimeError("no idea"), name="broken"))
 
     @sk.hookimpl
+    def register_checks(self, register: hookspecs.Register) -> None:
+        self.called.add("register_checks")
+        register(fakes.check(text="a nosy verdict"))
+
+    @sk.hookimpl
     def register_joint_predictors(self, register: hookspecs.Register) -> None:
         self.called.add("register_joint_predictors")
         register(fakes.joint_predictor(CABINET.joints))
@@ -113,6 +118,7 @@ def test_every_hook_is_called_and_its_answer_used(tmp_path: Path, simart_plugins
     assert result.asset.floating
     assert result.paths["fake"].read_text() == "a cabinet\n"
     assert result.report.unsupported == {"fake": ("No shapes.",)}
+    assert result.report.checks[-1].text == "a nosy verdict"
     stages = [event.stage for event in nosy.events if event.hook == "stage_finished"]
     assert stages[:4] == ["load", "segment", "joints", "modify"]
     assert stages[-1] == "load", "the second run ends after loading"

@@ -98,7 +98,7 @@ def execute(
     model.opt.timestep = float(np.clip(model.opt.timestep, *_TIMESTEP))
     with quiet_mujoco():
         unsettled = _unsettled(model, settle_seconds)
-        joints = _travels(model, travel_seconds)
+        joints = joint_travels(model, travel_seconds)
     travels = float(np.mean([not joint.reason for joint in joints])) if joints else 1.0
     reasons = [unsettled, *[f"joint '{joint.name}' {joint.reason}" for joint in joints if joint.reason]]
     first = next(filter(None, reasons), "")
@@ -142,7 +142,13 @@ def _astray(model: mujoco.MjModel, data: mujoco.MjData, joint: int) -> str:
     return "" if speed < _CALM else f"still moves at {speed:.2g} per second"
 
 
-def _travels(model: mujoco.MjModel, seconds: float) -> tuple[JointTravel, ...]:
+def joint_travels(model: mujoco.MjModel, seconds: float = TRAVEL_SECONDS) -> tuple[JointTravel, ...]:
+    """Drive each hinge and slide to both ends of its range; the model is changed.
+
+    Args:
+        model: on a fixed base.
+        seconds: for a whole range [s].
+    """
     import mujoco
 
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)

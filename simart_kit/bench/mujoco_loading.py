@@ -64,7 +64,8 @@ def load_spec(file: Path, fuse: bool = True) -> mujoco.MjSpec:
     with quiet_mujoco():
         try:
             if file.suffix == ".mjz":
-                spec = mujoco.MjSpec.from_zip(str(file))
+                with file.open("rb") as archive:  # of a path it would leave the file open
+                    spec = mujoco.MjSpec.from_zip(archive)
             else:
                 spec = _urdf(file, fuse) if is_urdf(file) else mujoco.MjSpec.from_file(str(file))
             spec.compile()  # fixing the base changes what only a compiled model has names for

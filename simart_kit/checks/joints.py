@@ -8,49 +8,69 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from pydantic import Field
 
-from ..asset import Asset, Joint
+from ..arrays import FloatArray
+from ..stages import Check
+from ..stages import Options as StageOptions
 from . import CheckResult
-
-MIN_TURN, MAX_TURN = np.deg2rad(1.0), 4 * np.pi  # [rad]
-MIN_TRAVEL, MAX_TRAVEL = 0.01, 1.0  # of the asset's diagonal
-MAX_DISTANCE = 0.05  # of a joint's origin from the bounding box, of the asset's diagonal
+from .mechanism import Link
+from .subject import Subject
 
 
-def check_joints(asset: Asset) -> CheckResult:
-    """Every moving joint can move, not absurdly far, about a point on the object."""
-    rows, problems = {}, []
-    for joint in asset.joints:
-        rows[joint.name] = row = _evidence(asset, joint)
-        problems += [f"{joint.name}: {text}" for text in _problems(asset, joint, row)]
-    moving = sum(j.moves for j in asset.joints)
-    text = "; ".join(problems) or (f"{moving} moving joints are sound" if moving else "static: nothing moves")
-    return CheckResult("joints", not problems, text, {"moving": moving, "joints": rows})
+class Joints(Check):
+    """Every joint can move, not absurdly far, about a point on the object, and no stage has flagged it."""
 
+    name = "joints"
 
-def _evidence(asset: Asset, joint: Joint) -> dict[str, Any]:
-    lower, upper = asset.mesh.bounds
-    origin = np.array(joint.origin)
-    travel = joint.limits.upper - joint.limits.lower if joint.limits else None
-    return {
-        "kind": joint.kind,
-        "travel": travel,
-        "distance_from_bounds": float(np.linalg.norm(origin - np.clip(origin, lower, upper))),
-        "flags": list(joint.flags),
-    }
+    class Options(StageOptions):
+        """What is sensible."""
 
-
-def _problems(asset: Asset, joint: Joint, row: dict[str, Any]) -> list[str]:
-    size, travel = asset.mesh.diagonal, row["travel"]
-    found = list(joint.flags)
-    if row["distance_from_bounds"] > MAX_DISTANCE * size:
-        found.append(f"its origin is {row['distance_from_bounds']:.3g} m away from the object")
-    if travel is not None:
-        low, high, unit = (
-            (MIN_TURN, MAX_TURN, "rad")
-            if joint.kind == "revolute"
-            else (MIN_TRAVEL * size, MAX_TRAVEL * size, "m")
+        least_turn: float = Field(default=0.0175, ge=0, description="Least travel of a hinge [rad].")
+        most_turn: float = Field(default=12.57, gt=0, description="Most travel of a hinge [rad].")
+        least_slide: float = Field(default=0.01, ge=0, description="Least travel of a slide [diagonal].")
+        most_slide: float = Field(default=1.0, gt=0, description="Most travel of a slide [diagonal].")
+        distance: float = Field(
+            default=0.05, ge=0, description="Of a joint's origin from the bounding box, at most [diagonal]."
         )
-        if not low <= travel <= high:
-            found.append(f"it travels {travel:.3g} {unit}, expected {low:.2g} to {high:.3g} {unit}")
-    return found
+
+    options: Options
+
+    def check(self, subject: Subject) -> CheckResult:
+        """One row a joint."""
+        asset, mechanism = subject.asset, subject.mechanism
+        bounds = asset.mesh.bounds if asset else mechanism.bounds
+        rows, problems = {}, []
+        for link in mechanism.links:
+            flags = list(asset.joint(link.name).flags) if asset else []
+            rows[link.name] = row = _evidence(link, bounds) | {"flags": flags}
+            problems += [f"{link.name}: {text}" for text in flags + self._problems(link, row, bounds)]
+        moving = len(mechanism.moving)
+        sound = f"{moving} moving joints are sound" if moving else "static: nothing moves"
+        evidence = {"moving": moving, "joints": rows}
+        return CheckResult(self.name, not problems, "; ".join(problems) or sound, evidence)
+
+    def _problems(self, link: Link, row: dict[str, Any], bounds: FloatArray) -> list[str]:
+        options, size = self.options, float(np.linalg.norm(bounds[1] - bounds[0]))
+        found, travel = [], row["travel"]
+        if row["distance_from_bounds"] > options.distance * size:
+            found.append(f"its origin is {row['distance_from_bounds']:.3g} m away from the object")
+        if travel is not None:
+            low, high, unit = (
+                (options.least_turn, options.most_turn, "rad")
+                if link.kind == "revolute"
+                else (options.least_slide * size, options.most_slide * size, "m")
+            )
+            if not low <= travel <= high:
+                found.append(f"it travels {travel:.3g} {unit}, expected {low:.2g} to {high:.3g} {unit}")
+        return found
+
+
+def _evidence(link: Link, bounds: FloatArray) -> dict[str, Any]:
+    origin = np.array(link.origin)
+    limited = link.lower is not None and link.upper is not None
+    return {
+        "kind": link.kind,
+        "travel": link.upper - link.lower if limited else None,  # type: ignore[operator]
+        "distance_from_bounds": float(np.linalg.norm(origin - np.clip(origin, *bounds))),
+    }

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import gc
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -55,6 +57,9 @@ def convert(
         bool, typer.Option("--floating", help="Leave the base free instead of fixed to the world.")
     ] = False,
     plugin: PluginFiles = None,
+    strict: Annotated[
+        bool, typer.Option("--strict", help="Exit with 1 if a check fails; files are written all the same.")
+    ] = False,
     no_record: Annotated[bool, typer.Option("--no-record", help="Write no rerun recording.")] = False,
     json: Json = False,
     verbose: Verbose = False,
@@ -70,7 +75,7 @@ def convert(
 
     if verbose and quiet:
         raise typer.BadParameter("--verbose and --quiet exclude each other")
-    with stdout_kept(json):
+    with stdout_kept(json), _uncollected():
         plugins = load_plugins(plugin)
         if not quiet:
             warn(f"plugin {failure}" for failure in plugins.failures)
@@ -95,6 +100,18 @@ def convert(
         print_json(document(result))
     elif not quiet:
         print(text(result, verbose))
+    if strict and not result.report.passed:
+        raise typer.Exit(1)
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Leave out garbage collection: a run is short, holds few cycles and many small objects to search."""
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()
 
 
 def _transfer_sets(transfer: str | None) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import shlex
 import shutil
@@ -79,6 +80,12 @@ def travel(joint: Joint) -> str:
 def verdict(check: CheckResult) -> str:
     """One line a check."""
     return f"{'ok  ' if check.passed else 'FAIL'}  {check.name}: {check.text}"
+
+
+def evidence(check: CheckResult) -> str:
+    """The numbers behind a verdict, a line for each of its entries."""
+    rows = [f"        {key}: {json.dumps(value)}" for key, value in check.evidence.items()]
+    return "\n".join(rows)
 
 
 def _program() -> str:

@@ -16,11 +16,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..asset import Asset, Joint
+from ..checks import CheckResult
 from ..hookspecs import Register, RegisterRecipe, hookimpl
 from ..mesh import Mesh
-from ..stages import Exporter, JointPredictor, Modifier, PartGuess, Segmentation, Segmenter
+from ..stages import Check, Exporter, JointPredictor, Modifier, PartGuess, Segmentation, Segmenter
 
 if TYPE_CHECKING:
+    from ..checks.subject import Subject
     from ..report import Report
     from ..runner import Run
 
@@ -133,6 +135,26 @@ def exporter(
     return FakeExporter
 
 
+def check(
+    passed: bool = True,
+    text: str = "as the test said",
+    error: BaseException | None = None,
+    name: str = "fake",
+) -> type[Check]:
+    """A Check class with this verdict, or that raises."""
+
+    class FakeCheck(Check):
+        """Judges as the test said."""
+
+        def check(self, subject: Subject) -> CheckResult:
+            if error is not None:
+                raise error
+            return CheckResult(name, passed, text)
+
+    FakeCheck.name = name
+    return FakeCheck
+
+
 @dataclass(frozen=True, eq=False)
 class FakePlugin:
     """A plugin that registers what it was given; make it with `plugin`."""
@@ -141,6 +163,7 @@ class FakePlugin:
     joint_predictors: tuple[type[JointPredictor], ...] = ()
     modifiers: tuple[type[Modifier], ...] = ()
     exporters: tuple[type[Exporter], ...] = ()
+    checks: tuple[type[Check], ...] = ()
     recipes: Mapping[str, Path] = field(default_factory=dict)
     meshes: Mapping[Path, Mesh] = field(default_factory=dict)
 
@@ -165,6 +188,11 @@ class FakePlugin:
             register(stage)
 
     @hookimpl
+    def register_checks(self, register: Register) -> None:
+        for stage in self.checks:
+            register(stage)
+
+    @hookimpl
     def register_recipes(self, register: RegisterRecipe) -> None:
         for name, path in self.recipes.items():
             register(name, path)
@@ -179,16 +207,18 @@ def plugin(
     joint_predictor: type[JointPredictor] | None = None,
     modifier: type[Modifier] | None = None,
     exporter: type[Exporter] | None = None,
+    check: type[Check] | None = None,
     recipes: Mapping[str, Path] = MappingProxyType({}),
     meshes: Mapping[Path, Mesh] = MappingProxyType({}),
 ) -> FakePlugin:
     """A plugin to `register`, with a stage of each kind at most.
 
     Args:
-        segmenter: registered if given; so are the next three.
+        segmenter: registered if given; so are the next four.
         joint_predictor: see segmenter.
         modifier: see segmenter.
         exporter: see segmenter.
+        check: see segmenter.
         recipes: TOML files by the name to register.
         meshes: what `load_mesh` answers for a path; the file must exist and not be empty.
     """
@@ -197,6 +227,7 @@ def plugin(
         joint_predictors=(joint_predictor,) if joint_predictor else (),
         modifiers=(modifier,) if modifier else (),
         exporters=(exporter,) if exporter else (),
+        checks=(check,) if check else (),
         recipes=recipes,
         meshes=meshes,
     )

@@ -12,6 +12,7 @@ from simart_kit.asset import Asset
 from simart_kit.kinematics import rest_to_posed, span
 
 from .evidence import EvidenceView, evidence_views
+from .faults import fault_path, faults
 from .history import History
 from .sweep import Move, moves, shown_positions
 from .tape import TIMELINE
@@ -93,6 +94,9 @@ def _stage_views(history: History) -> list[Any]:
         views += [rrb.Tabs(*each, name="Modifiers"), _text("report/modifiers", "Changes")]
     if asset is not None and any(part.collision for part in asset.parts):
         views.append(_view("collision", "Collision shapes", asset.mesh.bounds))
+    if asset is not None and faults(history):
+        tabs = [_view(fault_path(c), f"Failed: {c.name}", _reach(asset)) for c in faults(history)]
+        views.append(rrb.Tabs(*tabs, name="Failed checks"))
     return views
 
 

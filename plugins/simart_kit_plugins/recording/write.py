@@ -17,6 +17,7 @@ from . import documents
 from .blueprint import blueprint
 from .colors import BEFORE
 from .evidence import log_evidence
+from .faults import faults, log_fault
 from .history import History
 from .joints import log_joint, log_lines
 from .shapes import log_collision, log_parts, log_segments, log_textured, log_voxels
@@ -41,8 +42,11 @@ def _log_object(tape: Tape, history: History, source: Source) -> None:
     _log_stages(tape, history, source, mesh)
     _log_modifiers(tape, history, source)
     if history.asset is not None:
-        _log_asset(tape, history.asset, _shaded(history.asset, _labelled(history, source, mesh), source))
+        shaded = _shaded(history.asset, _labelled(history, source, mesh), source)
+        _log_asset(tape, history.asset, shaded)
         log_collision(tape, history.asset)
+        for check in faults(history):
+            log_fault(tape, check, history.asset, shaded)
 
 
 def _log_stages(tape: Tape, history: History, source: Source, mesh: Mesh) -> None:

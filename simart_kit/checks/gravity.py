@@ -1,0 +1,74 @@
+"""Check `gravity`: what is opened half way and let go stays there, unless its weight says otherwise."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from pydantic import Field
+
+from ..stages import Check
+from ..stages import Options as StageOptions
+from . import CheckResult
+from .names import joint_name
+from .subject import Subject
+
+if TYPE_CHECKING:
+    import mujoco
+
+
+class Gravity(Check):
+    """Joints at mid-range hold for two seconds; those whose weight exceeds their friction are listed."""
+
+    name = "gravity"
+
+    class Options(StageOptions):
+        """How long, and how far."""
+
+        seconds: float = Field(default=2.0, gt=0, le=60, description="How long it has to hold [s].")
+        drift: float = Field(
+            default=0.02, gt=0, le=1, description="Of a joint, at most [share of its range]."
+        )
+
+    options: Options
+
+    def check(self, subject: Subject) -> CheckResult:
+        """Each joint alone, the others at rest."""
+        from .simulation import ranges
+
+        model = subject.simulation.model
+        spans = ranges(model)
+        rows = {
+            joint_name(model, joint): _held(model, joint, span, self.options.seconds)
+            for joint, span in spans.items()
+        }
+        moved = {name: row for name, row in rows.items() if not row["drift"] <= self.options.drift}
+        # Weight explains a fall only where it is more than dry friction can hold.
+        wrong = [name for name, row in moved.items() if row["weight"] <= row["friction"]]
+        falls = [name for name in moved if name not in wrong]
+        text = f"drifts, and not by its weight: {', '.join(wrong)}" if wrong else f"{len(rows)} joints hold"
+        if not rows:
+            text = "static: nothing can droop"
+        if falls:
+            text += f"; by its own weight falls: {', '.join(falls)}"
+        return CheckResult(self.name, not wrong, text, {"joints": rows})
+
+
+def _held(model: mujoco.MjModel, joint: int, span: tuple[float, float], seconds: float) -> dict[str, Any]:
+    """How far a joint drifts from mid-range, what gravity does there and what friction can hold."""
+    import mujoco
+
+    from ..bench.mujoco_driving import rest_positions
+
+    data, dof = mujoco.MjData(model), int(model.jnt_dofadr[joint])
+    address = int(model.jnt_qposadr[joint])
+    start = (span[0] + span[1]) / 2
+    data.qpos[:] = rest_positions(model)
+    data.qpos[address] = start
+    mujoco.mj_forward(model, data)
+    weight = abs(float(data.qfrc_bias[dof]))
+    mujoco.mj_step(model, data, nstep=round(seconds / model.opt.timestep))
+    return {
+        "drift": abs(float(data.qpos[address]) - start) / (span[1] - span[0]),
+        "weight": weight,
+        "friction": float(model.dof_frictionloss[dof]),
+    }

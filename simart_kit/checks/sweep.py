@@ -1,0 +1,87 @@
+"""Check `sweep`: along its whole range a joint drives no body into another."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from pydantic import Field
+
+from ..stages import Check
+from ..stages import Options as StageOptions
+from . import CheckResult, Fault
+from .names import joint_name
+from .subject import Subject
+
+if TYPE_CHECKING:
+    import mujoco
+
+
+class JointSweep(Check):
+    """Each joint goes through its limits, the others at rest; pairs that the file excludes are listed."""
+
+    name = "sweep"
+
+    class Options(StageOptions):
+        """How finely to look, and how deep is too deep: either of the two is allowed."""
+
+        steps: int = Field(default=41, ge=3, le=721, description="Poses of each joint.")
+        depth: float = Field(default=0.002, ge=0, description="Deepest overlap [m].")
+        share: float = Field(default=0.005, ge=0, description="The same, of the object's diagonal.")
+
+    options: Options
+
+    def check(self, subject: Subject) -> CheckResult:
+        """The deepest pose of each joint and pair of bodies."""
+        from .simulation import ranges
+
+        simulation = subject.simulation
+        model = simulation.unfiltered()
+        allowed = max(self.options.depth, self.options.share * simulation.mechanism.diagonal)
+        swept = ranges(model)
+        faults = [f for joint, span in swept.items() for f in _faults(model, joint, span, self.options.steps)]
+        deep = sorted((f for f in faults if f.depth > allowed), key=lambda f: (-f.depth, f.text))
+        excluded = {" in ".join(sorted(pair)) for pair in simulation.mechanism.excluded}
+        wrong = [f for f in deep if f.text not in excluded]
+        rows = [
+            {"joint": joint, "position": round(value, 6), "pair": f.text, "depth": round(f.depth, 6)}
+            for f in deep
+            for joint, value in f.positions.items()
+        ]
+        return CheckResult(
+            self.name,
+            not wrong,
+            _text(wrong, len({f.text for f in deep} & excluded), len(swept)),
+            {"joints": len(swept), "allowed": allowed, "deep": rows, "excluded": sorted(excluded)},
+            wrong[0] if wrong else None,
+        )
+
+
+def _faults(model: mujoco.MjModel, joint: int, span: tuple[float, float], steps: int) -> list[Fault]:
+    """The deepest pose of each pair of bodies that meet while a joint moves."""
+    import mujoco
+
+    from ..bench.mujoco_driving import rest_positions
+    from .simulation import contacts
+
+    data, name, deepest = mujoco.MjData(model), joint_name(model, joint), dict[tuple[str, str], Fault]()
+    for position in np.linspace(*span, steps):
+        data.qpos[:] = rest_positions(model)
+        data.qpos[model.jnt_qposadr[joint]] = position
+        mujoco.mj_forward(model, data)
+        for pair, contact in contacts(model, data).items():
+            if pair not in deepest or deepest[pair].depth < contact.depth:
+                where = {name: float(position)}
+                deepest[pair] = Fault(where, contact.point, contact.depth, " in ".join(pair))
+    return list(deepest.values())
+
+
+def _text(wrong: list[Fault], listed: int, joints: int) -> str:
+    if wrong:
+        (joint, position), depth = next(iter(wrong[0].positions.items())), wrong[0].depth * 1000
+        more = f", and {len(wrong) - 1} more" if len(wrong) > 1 else ""
+        return f"{joint} at {position:.3g} drives {wrong[0].text} by {depth:.3g} mm{more}"
+    if not joints:
+        return "static: nothing sweeps"
+    rest = f"; {listed} excluded pairs overlap on their way" if listed else ""
+    return f"{joints} joints sweep their range freely{rest}"
