@@ -16,7 +16,9 @@ WHEEL := build/wheel
 # A process for each processor; one that runs out of tests takes those of another.
 PARALLEL := -n auto --dist worksteal
 
-.PHONY: help demo test coverage slow check lint types docs docs-check fmt wheel bench browser clean
+JUDGE := PYTHONPATH=tests $(BIN)/python -m judges --judges "$(JUDGES)" --assets "$(ASSETS)"
+
+.PHONY: help demo test coverage slow check lint types docs docs-check fmt wheel bench judges judges-light browser clean
 .DEFAULT_GOAL := help
 
 help:  ## List the targets.
@@ -72,6 +74,12 @@ bench: $(APP)  ## Time conversions, the scoring of 100 objects, label transfer a
 	$(BIN)/python tests/bench_scoring.py
 	$(BIN)/python tests/bench_transfer.py
 	$(BIN)/python tests/bench_voxels.py
+
+judges: $(DEV)  ## Ask other tools about our exports, each in its own environment (4.5 GB); JUDGES=a,b ASSETS=c,d.
+	$(JUDGE) --seeded
+
+judges-light: $(DEV)  ## The same, but only the tools that the tests need anyway.
+	$(JUDGE) --seeded --light
 
 browser:  ## Install chromium by apt for the tests of pages, where no browser is found.
 	@for name in chromium chromium-browser google-chrome google-chrome-stable; do \

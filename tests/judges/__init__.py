@@ -1,0 +1,1 @@
+"""Judges: tools that others wrote, asked what they make of our exports. See docs/judges.md."""
