@@ -214,7 +214,8 @@ def test_a_hand_opens_each_joint_to_its_limit_and_moves_no_other(result: sk.Resu
     model = mujoco.MjModel.from_xml_path(str(result.paths["mjcf"]))
     for joint in result.asset.joints:
         assert joint.limits is not None
-        positions, fastest = simulate(model, 3.0, {joint.name: 5.0})
+        push = 5.0 if joint.turns else 20.0  # an arm's 5 N*m, at a drawer 25 cm away
+        positions, fastest = simulate(model, 6.0, {joint.name: push})
         moved = positions[model.joint(joint.name).qposadr[0]]
         assert moved == pytest.approx(joint.limits.upper, abs=0.01), joint.name
         others = np.delete(positions, model.joint(joint.name).qposadr[0])
