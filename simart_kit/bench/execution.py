@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from .mujoco_driving import REACHED, Driver, one_axis_joints, rest_positions
+from ..arrays import FloatArray
+from .mujoco_driving import REACHED, Driver, one_axis_joints, opened_positions, rest_positions
 from .mujoco_loading import LoadError, load_model, one_line, quiet_mujoco
 
 if TYPE_CHECKING:
@@ -142,12 +143,15 @@ def _astray(model: mujoco.MjModel, data: mujoco.MjData, joint: int) -> str:
     return "" if speed < _CALM else f"still moves at {speed:.2g} per second"
 
 
-def joint_travels(model: mujoco.MjModel, seconds: float = TRAVEL_SECONDS) -> tuple[JointTravel, ...]:
+def joint_travels(
+    model: mujoco.MjModel, seconds: float = TRAVEL_SECONDS, others_open: bool = False
+) -> tuple[JointTravel, ...]:
     """Drive each hinge and slide to both ends of its range; the model is changed.
 
     Args:
         model: on a fixed base.
         seconds: for a whole range [s].
+        others_open: whether a joint that is held up may go with all others open, as a rack behind a door.
     """
     import mujoco
 
@@ -159,10 +163,18 @@ def joint_travels(model: mujoco.MjModel, seconds: float = TRAVEL_SECONDS) -> tup
     moving = one_axis_joints(model)
     chosen = np.linspace(0, len(moving) - 1, min(len(moving), MOST_JOINTS)).round().astype(int)
     driver = Driver(model, seconds)
-    return tuple(_travel(model, driver, moving[index]) for index in chosen)
+    found = [_travel(model, driver, moving[index]) for index in chosen]
+    if others_open:
+        for place, index in enumerate(chosen):
+            if found[place].reason:
+                again = _travel(model, driver, moving[index], opened_positions(model, moving[index]))
+                found[place] = found[place] if again.reason else again
+    return tuple(found)
 
 
-def _travel(model: mujoco.MjModel, driver: Driver, joint: int) -> JointTravel:
+def _travel(
+    model: mujoco.MjModel, driver: Driver, joint: int, start_at: FloatArray | None = None
+) -> JointTravel:
     name, kind = _name(model, joint), _kind(model, joint)
     lower, upper = _range(model, joint)
     if not upper - lower >= _LEAST_RANGE:
@@ -170,7 +182,7 @@ def _travel(model: mujoco.MjModel, driver: Driver, joint: int) -> JointTravel:
         fault = f"has no travel: its limits are {stated[0]:.3g} .. {stated[1]:.3g}"
         return JointTravel(name, kind, False, False, 0.0, fault)
     tolerance = REACHED * (upper - lower)
-    found = [driver.reach(joint, end, upper - lower) for end in (lower, upper)]
+    found = [driver.reach(joint, end, upper - lower, start_at) for end in (lower, upper)]
     reached = [abs(place - end) <= tolerance for place, end in zip(found, (lower, upper), strict=True)]
     reason = ""
     if not all(reached):

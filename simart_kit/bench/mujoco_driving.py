@@ -39,13 +39,14 @@ class Driver:
         self._rest = rest_positions(model)
         self._follows = _followers(model)
 
-    def reach(self, joint: int, target: float, travel: float) -> float:
+    def reach(self, joint: int, target: float, travel: float, start_at: FloatArray | None = None) -> float:
         """Drive from rest towards a position; returns where the joint is in the end [rad | m].
 
         Args:
             joint: a hinge or slide.
             target: position [rad | m].
             travel: length of its range [rad | m], above 0.
+            start_at: (nq,) positions where all others are held; the default is rest.
 
         Returns:
             A position within REACHED of `travel` if it got there; NaN where the simulation broke.
@@ -55,8 +56,8 @@ class Driver:
         model, data = self._model, self._data
         address, dof = int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint])
         mujoco.mj_resetData(model, data)
-        data.qpos[:] = self._rest
-        goal, start = self._rest.copy(), float(self._rest[address])
+        data.qpos[:] = goal = self._rest.copy() if start_at is None else start_at.copy()
+        start = float(goal[address])
         ramp = self._seconds * (_LEAST + (1 - _LEAST) * min(abs(target - start) / travel, 1.0))
         steps = int(np.ceil((ramp + _AFTER * self._seconds) / model.opt.timestep))
         try:
@@ -98,6 +99,16 @@ def rest_positions(model: mujoco.MjModel) -> FloatArray:
             address = model.jnt_qposadr[joint]
             rest[address] = np.clip(rest[address], *model.jnt_range[joint])
     return rest
+
+
+def opened_positions(model: mujoco.MjModel, joint: int) -> FloatArray:
+    """(nq,) positions with one joint at rest and the other limited hinges and slides far open."""
+    found = rest_positions(model)
+    for other in one_axis_joints(model):
+        address = model.jnt_qposadr[other]
+        if other != joint and model.jnt_limited[other]:
+            found[address] = max(model.jnt_range[other], key=lambda end: abs(end - found[address]))
+    return found
 
 
 def one_axis_joints(model: mujoco.MjModel) -> list[int]:

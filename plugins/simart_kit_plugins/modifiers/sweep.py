@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Sweep(Modifier):
-    """Shortens limits to what is free. A joint that is stuck keeps its limits and is flagged."""
+    """Shortens limits to what is free, so that no part goes through another; flags a joint that is stuck."""
 
     name = "sweep"
 
@@ -44,13 +44,14 @@ class Sweep(Modifier):
                 continue
             lower, upper = self._free(asset, joint)
             wanted = joint.limits.upper - joint.limits.lower
+            before = _range(joint, joint.limits.lower, joint.limits.upper)
+            free = replace(joint, limits=simart_kit.Limits(lower, upper))
             if upper - lower < self.options.least * wanted:
-                flag = f"sweep: blocked after {_amount(joint, max(upper, -lower))}"
-                changed[joint.name] = replace(joint, flags=(*joint.flags, flag))
-                stuck.append(f"{joint.name} is {flag.removeprefix('sweep: ')}: limits kept, look at it")
-            elif (lower, upper) != (joint.limits.lower, joint.limits.upper):
-                changed[joint.name] = replace(joint, limits=simart_kit.Limits(lower, upper))
-                before = _range(joint, joint.limits.lower, joint.limits.upper)
+                told = f"blocked after {_amount(joint, max(upper, -lower))} of {before}"
+                changed[joint.name] = replace(free, flags=(*joint.flags, f"sweep: {told}"))
+                stuck.append(f"{joint.name} is {told}: its axis may be wrong, look at it")
+            elif free.limits != joint.limits:
+                changed[joint.name] = free
                 shortened.append(f"{joint.name}: {before} shortened to {_range(joint, lower, upper)}")
         return (
             asset.with_joints(changed)
