@@ -127,6 +127,17 @@ class TestPush:
         assert result.fault.point == pytest.approx((-0.2, -0.3, 0.0))
         assert judged("push", mjcf(tmp_path / "s", DOOR, 'frictionloss="10"'), torque=15.0).passed
 
+    def test_a_lid_too_heavy_for_the_push_is_listed(self, tmp_path: Path) -> None:
+        """1.92 kg, 0.2 m from the hinge: 3.77 N m when it is shut."""
+        subject = mjcf(tmp_path, LID, 'damping="0.1"')
+        assert judged("push", subject).passed
+        weak = judged("push", subject, torque=3.0)
+        assert weak.passed
+        assert "0 joints open at a push" in weak.text
+        assert "too heavy for it [N m | N]: hinge (3.8)" in weak.text
+        stuck = judged("push", mjcf(tmp_path / "stuck", LID, f'frictionloss="9" {FIRM}'))
+        assert not stuck.passed  # the push could lift it, were it not for friction
+
     def test_a_limit_that_gives_way(self, tmp_path: Path) -> None:
         stops = 'damping="1" solreflimit="{} 1"'
         hard = judged("push", mjcf(tmp_path / "hard", DOOR, stops.format(0.02)))

@@ -18,11 +18,15 @@ from .subject import Subject
 if TYPE_CHECKING:
     import mujoco
 
+_STOPS = 9  # where its weight is felt
 _FIRM = 1.25  # times what holds a joint: weight grows on its way
 
 
 class Push(Check):
-    """Pushed to its farther limit from rest, each joint gets there and not beyond it."""
+    """Pushed to its farther limit from rest, each joint gets there and not beyond it.
+
+    What weighs more on its joint than the push can lift is listed: no arm of that size opens it.
+    """
 
     name = "push"
 
@@ -50,7 +54,8 @@ class Push(Check):
         model = subject.simulation.model
         joints = [j for j in one_axis_joints(model) if model.jnt_limited[j]]
         rows = {joint_name(model, j): self._opened(model, j) for j in joints}
-        stuck = [n for n, row in rows.items() if not row["opened"] >= self.options.opens]
+        shut = [n for n, row in rows.items() if not row["opened"] >= self.options.opens]
+        stuck = [n for n in shut if not rows[n]["weight"] > rows[n]["push"]]
         over = [n for n, row in rows.items() if not row["overshoot"] <= self.options.overshoot]
         texts = []
         if stuck:
@@ -59,7 +64,9 @@ class Push(Check):
         if over:
             listed = ", ".join(f"{n} by {rows[n]['overshoot']:.2g}" for n in over)
             texts.append(f"pushed over its limit: {listed}")
-        sound = f"{len(rows)} joints open at a push and stop at their limits"
+        heavy = [f"{n} ({rows[n]['weight']:.2g})" for n in shut if n not in stuck]
+        sound = f"{len(rows) - len(heavy)} joints open at a push and stop at their limits"
+        sound += f"; too heavy for it [N m | N]: {', '.join(heavy)}" if heavy else ""
         fault = (
             Fault({stuck[0]: rows[stuck[0]]["reached"]}, _anchor(subject, stuck[0]), 0.0, "stuck")
             if stuck
@@ -86,6 +93,7 @@ class Push(Check):
         rest = float(data.qpos[address])
         sign = 1.0 if upper - rest >= rest - lower else -1.0
         limit = upper if sign > 0 else lower
+        weight = _weight(model, joint, others, (lower, upper))
         data.qfrc_applied[dof] = sign * self._force(model, data, dof, hinge)
         most = rest
         for _ in range(round(self.options.seconds / model.opt.timestep / 10)):
@@ -94,7 +102,8 @@ class Push(Check):
         # Bouncing back at the limit does not count against it.
         opened = (most - rest) / (limit - rest) if limit != rest else 1.0
         over = max(sign * (float(data.qpos[address]) - limit), 0.0)
-        return {"opened": min(opened, 1.0), "overshoot": over, "reached": most}
+        row = {"opened": min(opened, 1.0), "overshoot": over, "reached": most}
+        return row | {"push": abs(float(data.qfrc_applied[dof])), "weight": weight}
 
     def _force(self, model: mujoco.MjModel, data: mujoco.MjData, dof: int, hinge: bool) -> float:
         """The push on a joint at rest [N*m | N]."""
@@ -106,6 +115,19 @@ class Push(Check):
         holds = float(model.dof_frictionloss[dof]) + abs(float(data.qfrc_bias[dof]))
         enough = _FIRM * holds + self.options.acceleration * float(inertia[dof])
         return min(enough, self.options.torque if hinge else self.options.force)
+
+
+def _weight(model: mujoco.MjModel, joint: int, others: FloatArray, span: tuple[float, float]) -> float:
+    """What gravity does to a joint at most on its way [N*m | N]."""
+    import mujoco
+
+    data, dof, found = mujoco.MjData(model), int(model.jnt_dofadr[joint]), [0.0]
+    for position in np.linspace(*span, _STOPS):
+        data.qpos[:] = others
+        data.qpos[model.jnt_qposadr[joint]] = position
+        mujoco.mj_forward(model, data)
+        found.append(abs(float(data.qfrc_bias[dof])))
+    return max(found)
 
 
 def _anchor(subject: Subject, name: str) -> Vec3:
