@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,9 @@ from .kinematics import carried, span
 GRAVITY = 9.81  # [m/s^2] along -z
 _UPRIGHT = 0.999  # |z| of an axis from which on a turn about it leaves gravity's direction as it is
 _STEPS = 33  # on either side of rest
+# Rolling resistance over weight: tyres on asphalt have 0.01 to 0.015, casters on a floor 0.02 to 0.03.
+_ROLLING = 0.02
+_FOOT, _LEVEL = 0.01, 0.1  # how far above the floor a wheel may end [diagonal]; |z| of its axis
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +57,28 @@ def load(asset: Asset, joint: Joint) -> Load:
         arm = center if joint.kind == "ball" else center - axis * (axis @ center)
         most = mass * GRAVITY * (1.0 if joint.kind == "prismatic" else float(np.linalg.norm(arm)))
     return Load(mass, inertia, positions, along, most)
+
+
+def rolling_resistance(asset: Asset, joints: Sequence[Joint]) -> dict[str, float]:
+    """What keeps a standing object from rolling away: dry friction of each wheel that carries it [N*m].
+
+    A wheel turns without limits about a level axis and reaches down as far as the object does; all carry
+    alike.
+
+    Args:
+        asset: with mass properties.
+        joints: of it; those that are no such wheel are left out.
+    """
+    floor, slack = float(asset.mesh.bounds[0, 2]), _FOOT * asset.mesh.diagonal
+    wheels = [j for j in joints if j.kind == "continuous" and abs(j.axis[2]) < _LEVEL]
+    wheels = [j for j in wheels if _lowest(asset, j.child) < floor + slack]
+    weight = GRAVITY * sum(part.mass.mass for part in asset.parts if part.mass)
+    return {j.name: _ROLLING * weight / len(wheels) * max(j.origin[2] - floor, 0.0) for j in wheels}
+
+
+def _lowest(asset: Asset, part: str) -> float:
+    faces = asset.mesh.faces[asset.face_part == asset.part_index(part)]
+    return float(asset.mesh.vertices[faces, 2].min())
 
 
 def _carried(asset: Asset, joint: Joint) -> tuple[float, FloatArray, FloatArray]:

@@ -14,7 +14,7 @@ from simart_kit_plugins.modifiers.mass import Mass
 
 import simart_kit as sk
 from simart_kit.arrays import Vec3
-from simart_kit.loads import GRAVITY, load
+from simart_kit.loads import GRAVITY, load, rolling_resistance
 from simart_kit.testing.meshes import boxes_mesh, cabinet_asset, chain_asset
 
 UP, SIDE = (0.0, 0.0, 1.0), (-1.0, 0.0, 0.0)
@@ -204,3 +204,41 @@ def test_the_cabinet_opens_without_a_doubt() -> None:
         "info",
         "damping and friction in proportion to what moves: door_hinge, drawer_slide",
     )
+
+
+def trolley(**changes: Any) -> sk.Asset:
+    """A board of 8 kg on two rollers of 1 kg, whose axles are 0.1 m above the floor."""
+    board = ((-0.5, -0.3, 0.2), (0.5, 0.3, 0.25))
+    rollers = [((x - 0.1, -0.3, 0.0), (x + 0.1, 0.3, 0.2)) for x in (-0.4, 0.4)]
+    mesh = boxes_mesh([board, *rollers])
+    values: dict[str, Any] = {"axis": (0.0, 1.0, 0.0)} | changes
+    joints = tuple(
+        sk.Joint(f"{name}_spin", "continuous", "board", name, (x, 0.0, 0.1), **values)
+        for name, x in (("front", -0.4), ("rear", 0.4))
+    )
+    parts = (
+        sk.Part("board", stated_mass=8.0),
+        sk.Part("front", stated_mass=1.0),
+        sk.Part("rear", stated_mass=1.0),
+    )
+    return Mass().modify(sk.Asset("trolley", mesh, np.repeat([0, 1, 2], 12), parts, joints))
+
+
+class TestWheels:
+    def test_they_share_the_rolling_resistance_of_what_they_carry(self) -> None:
+        """A fiftieth of 10 kg on two wheels of 0.1 m."""
+        asset = trolley()
+        expected = {f"{name}_spin": 0.02 * 10 * GRAVITY / 2 * 0.1 for name in ("front", "rear")}
+        assert rolling_resistance(asset, asset.joints) == pytest.approx(expected)
+        made = Dynamics().modify(asset)
+        assert all(made.joint(name).friction >= value for name, value in expected.items())
+
+    def test_what_turns_upright_is_no_wheel(self) -> None:
+        asset = trolley(axis=UP)
+        assert rolling_resistance(asset, asset.joints) == {}
+
+    def test_what_does_not_reach_the_floor_carries_nothing(self) -> None:
+        mesh = boxes_mesh([((0, 0, 0), (1, 1, 1)), ((0.4, 0.4, 1), (0.6, 0.6, 1.2))])
+        spin = sk.Joint("spin", "continuous", "body", "drum", (0.5, 0.5, 1.1), (1.0, 0.0, 0.0))
+        asset = sk.Asset("mill", mesh, np.repeat([0, 1], 12), (sk.Part("body"), sk.Part("drum")), (spin,))
+        assert rolling_resistance(Mass().modify(asset), (spin,)) == {}

@@ -10,7 +10,7 @@ from pydantic import Field
 import simart_kit as sk
 from simart_kit.asset import Joint
 from simart_kit.hookspecs import Register
-from simart_kit.loads import Load, load
+from simart_kit.loads import Load, load, rolling_resistance
 
 _SURPLUS = 0.2  # of what gravity exerts, by which friction exceeds it; at most `_BASE_SHARE` of a push
 _DEFAULTS = {field.name: field.default for field in fields(Joint)}
@@ -75,7 +75,8 @@ class Dynamics(sk.Modifier):
         """The asset with joints that resist; warns of those that a push cannot open or friction not hold."""
         moving = [joint for joint in asset.joints if joint.kind in RULES]
         loads = {joint.name: load(asset, joint) for joint in moving}
-        changed = {joint.name: self._resisting(joint, loads[joint.name]) for joint in moving}
+        rolling = rolling_resistance(asset, moving)
+        changed = {j.name: self._resisting(j, loads[j.name], rolling.get(j.name, 0.0)) for j in moving}
         given = [joint.name for joint in moving if changed[joint.name] != joint]
         infos = [f"damping and friction in proportion to what moves: {', '.join(given)}"] if given else []
         warnings = [
@@ -87,12 +88,12 @@ class Dynamics(sk.Modifier):
     def _push(self, joint: Joint) -> float:
         return self.options.force if joint.kind == "prismatic" else self.options.torque
 
-    def _resisting(self, joint: Joint, moved: Load) -> Joint:
+    def _resisting(self, joint: Joint, moved: Load, rolling: float) -> Joint:
         """The joint, with a value where it has none; effort and velocity also where it has the default."""
         rule, push = RULES[joint.kind], self._push(joint)
         least_friction, least_damping, least_armature = rule.least
         base = max(min(rule.friction * moved.inertia, _BASE_SHARE * push), least_friction)
-        friction = joint.friction or _friction(base, moved, push)
+        friction = joint.friction or max(_friction(base, moved, push), rolling)
         fastest = max(push - friction, (1 - _OPEN_SHARE) * push) / rule.slowest
         sinks = max(moved.most - friction, 0.0) / rule.sinking
         damping = joint.damping or max(min(rule.damping * moved.inertia, fastest), sinks, least_damping)
