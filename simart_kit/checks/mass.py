@@ -21,7 +21,7 @@ _SKIN = 0.01  # [m] of material that a surface may stand for without enclosing i
 
 
 class Mass(Check):
-    """Every body has the inertial properties of a real one; none that moves carries far more than it weighs."""
+    """Every body has inertial properties of a real one; none that moves carries far more than it weighs."""
 
     name = "mass"
 
