@@ -116,7 +116,7 @@ def build(use: Use, base: type[S], plugins: Plugins, seed: int) -> tuple[S, Regi
     try:
         options = read_options(stage_class, use.options)
     except ValidationError as error:
-        raise RecipeError("; ".join(_option_mistakes(base.kind, stage_class, error))) from error
+        raise RecipeError("; ".join(_option_mistakes((base.kind, "options"), stage_class, error))) from error
     try:
         return stage_class(options, seed=seed), registration
     except Exception as cause:
@@ -175,7 +175,9 @@ def _stage_mistakes(table: Mapping[str, Any], plugins: Plugins) -> tuple[list[st
         except PluginError as error:
             mistakes.append(f"{_place(key, use)}: {error}")
         except ValidationError as error:
-            mistakes += _option_mistakes(_place(key, use), stage, error)
+            # The thresholds of a check are its table; other stages have theirs in `options`.
+            inside = () if key == "checks" else ("options",)
+            mistakes += _option_mistakes((_place(key, use), *inside), stage, error)
     return mistakes, failed
 
 
@@ -184,9 +186,9 @@ def _place(key: str, use: Mapping[str, Any]) -> str:
     return key if key in _SINGLES else f"{key}.{use['use']}"
 
 
-def _option_mistakes(place: str, stage: type[Stage], error: ValidationError) -> list[str]:
+def _option_mistakes(place: tuple[str, ...], stage: type[Stage], error: ValidationError) -> list[str]:
     known = ", ".join(stage.Options.model_fields) or "none"
-    return [_told((place, "options", *e["loc"]), e, known) for e in error.errors()]
+    return [_told((*place, *e["loc"]), e, known) for e in error.errors()]
 
 
 def _told(location: tuple[int | str, ...], error: Any, known: str = "") -> str:
