@@ -201,7 +201,10 @@ def test_damaged_provenance(text: str, made: Path, home: Path, capfd: pytest.Cap
     ("change", "told"),
     [
         ("checks.sette.tilt=5", "unknown check 'sette': known are agreement, collision"),
-        ("checks.settle.tild=5", "checks.settle.tild: no such key (got 5), known are height, seconds, speed, tilt, sink"),
+        (
+            "checks.settle.tild=5",
+            "checks.settle.tild: no such key (got 5), known are height, seconds, speed, tilt, sink",
+        ),
     ],
 )
 def test_unknown_names_list_those_there_are(

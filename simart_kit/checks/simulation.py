@@ -52,7 +52,7 @@ class Simulation:
         """Load a URDF or MJCF file; raises BadInputError when it does not load."""
         from .reading_mujoco import mechanism_of
 
-        spec = read_spec(path)
+        spec = _without_looks(read_spec(path))
         return cls(spec, mechanism_of(compiled_spec(spec)))
 
     @classmethod
@@ -95,6 +95,19 @@ class Simulation:
             name="checks_floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], pos=below
         )
         return compiled_spec(spec)
+
+
+def _without_looks(spec: mujoco.MjSpec) -> mujoco.MjSpec:
+    """The spec without what is only seen, where it decides no mass: large meshes take long to compile."""
+    for body in spec.bodies:
+        for geom in list(body.geoms) if body.explicitinertial else ():
+            if not (geom.contype or geom.conaffinity):
+                spec.delete(geom)
+    used = {geom.meshname for geom in spec.geoms}
+    for mesh in list(spec.meshes):
+        if mesh.name and mesh.name not in used:
+            spec.delete(mesh)
+    return spec
 
 
 def contacts(model: mujoco.MjModel, data: mujoco.MjData) -> dict[tuple[str, str], Contact]:

@@ -13,6 +13,7 @@ from pydantic import Field
 import simart_kit as sk
 from simart_kit.asset import ConvexMesh
 from simart_kit.carving import carved_apart
+from simart_kit.coarsening import coarsened
 from simart_kit.convex_decomposition import lacks
 from simart_kit.cutting import WORK
 from simart_kit.decompose import Budget, Decomposition, decompose, decompose_by_tool
@@ -22,6 +23,7 @@ from simart_kit.hulls import MIN_THICKNESS, convex_hull
 from simart_kit.separation import Overlap, overlaps, separated
 
 Shapes = dict[str, Decomposition]  # by name of the part
+_MOST_FACES = 300_000  # of a part that shapes are fitted to; finer ones are coarsened first
 _REBATES = 1.01  # how tight shapes have to be where parts overlap
 
 
@@ -114,8 +116,8 @@ class Collision(sk.Modifier):
         return {part.name: made[part.name] for part in asset.parts if part.name in names}
 
     def _shapes(self, asset: sk.Asset, index: int, budget: Budget) -> Decomposition:
-        options, vertices = self.options, asset.mesh.vertices
-        faces = asset.mesh.faces[asset.face_part == index]
+        options, mesh = self.options, asset.mesh
+        vertices, faces = coarsened(mesh.vertices, mesh.faces[asset.face_part == index], _MOST_FACES)
         points = vertices[np.unique(faces)]
         match options.mode:
             case "none":
