@@ -40,6 +40,13 @@ def rules(findings: Iterable[Finding]) -> set[str]:
     return {finding.rule for finding in findings}
 
 
+def assert_told(findings: Iterable[Finding], rule: str) -> None:
+    """Only this rule is broken, and every finding says so on one line."""
+    found = tuple(findings)
+    assert rules(found) == {rule}, found
+    assert all(finding.text and "\n" not in finding.text for finding in found)
+
+
 def rules_of(form: str) -> set[str]:
     """All rules on a format."""
     return {name for name, rule in RULES.items() if form in rule.formats}

@@ -14,10 +14,10 @@ from simart_kit.lint import lint
 
 from .export_cases import CASES
 from .lint_cases import (
+    assert_told,
     export,
     first,
     good_asset,
-    rules,
     rules_of,
     seeded_xml,
     set_at,
@@ -168,9 +168,7 @@ def good(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("name", DEFECTS)
 def test_defect_is_told_by_its_rule(name: str, good: Path) -> None:
     rule, defect = DEFECTS[name]
-    found = lint(seeded_xml(good, name, defect))
-    assert rules(found) == {rule}, found
-    assert all(finding.text and "\n" not in finding.text for finding in found)
+    assert_told(lint(seeded_xml(good, name, defect)), rule)
 
 
 def test_every_rule_on_urdf_has_a_defect() -> None:

@@ -13,7 +13,7 @@ import simart_kit as sk
 from simart_kit import BadInputError
 from simart_kit.lint import lint, lint_usd
 
-from .lint_cases import export, good_asset, rules, rules_of, seeded_usd
+from .lint_cases import assert_told, export, good_asset, rules, rules_of, seeded_usd
 from .lint_usd_defects import DEFECTS, with_primitives, without_physics
 from .real_objects import DATA
 from .usd_cases import ASSETS
@@ -30,9 +30,7 @@ def good(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("name", DEFECTS)
 def test_defect_is_told_by_its_rule(name: str, good: Path) -> None:
     rule, defect = DEFECTS[name]
-    found = lint_usd(seeded_usd(good, name, defect))
-    assert rules(found) == {rule}, found
-    assert all(finding.text and "\n" not in finding.text for finding in found)
+    assert_told(lint_usd(seeded_usd(good, name, defect)), rule)
 
 
 def test_every_rule_on_usd_has_a_defect() -> None:

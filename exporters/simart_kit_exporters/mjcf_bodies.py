@@ -10,14 +10,12 @@ import numpy as np
 from simart_kit.arrays import FloatArray
 from simart_kit.asset import Asset, Joint, MassProperties
 from simart_kit.kinematics import ordered_joints, rest_origin
+from simart_kit.mujoco_joints import STIFF_FRICTION, joint_type
 
 from .gaps import rigid
 
 if TYPE_CHECKING:
     import mujoco
-
-# With MuJoCo's own 0.9 .. 0.95 dry friction is soft: what it holds creeps, a lid by 0.2 rad in three seconds.
-_STIFF_FRICTION = [0.9999, 0.9999, 0.001, 0.5, 2.0]
 
 
 def add_bodies(
@@ -61,15 +59,9 @@ def set_inertial(body: mujoco.MjsBody, mass: MassProperties, origin: FloatArray)
 def _add_joint(body: mujoco.MjsBody, joint: Joint) -> None:
     import mujoco
 
-    kinds = {
-        "revolute": mujoco.mjtJoint.mjJNT_HINGE,
-        "continuous": mujoco.mjtJoint.mjJNT_HINGE,
-        "prismatic": mujoco.mjtJoint.mjJNT_SLIDE,
-        "ball": mujoco.mjtJoint.mjJNT_BALL,
-    }
     added = body.add_joint(
         name=joint.name,
-        type=kinds[joint.kind],
+        type=joint_type(joint.kind),
         axis=joint.axis,
         limited=mujoco.mjtLimited.mjLIMITED_TRUE if joint.limits else mujoco.mjtLimited.mjLIMITED_FALSE,
         damping=joint.damping,
@@ -77,7 +69,7 @@ def _add_joint(body: mujoco.MjsBody, joint: Joint) -> None:
         armature=joint.armature,
     )
     if joint.friction:
-        added.solimp_friction = _STIFF_FRICTION
+        added.solimp_friction = STIFF_FRICTION
     if joint.limits:
         added.range = [joint.limits.lower, joint.limits.upper]
     if joint.kind != "ball" and joint.effort > 0:

@@ -1,31 +1,12 @@
-"""Pairs of parts whose collision shapes overlap, as MuJoCo sees them."""
+"""Pairs of parts whose collision shapes overlap, so that contact between them has to be off."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-import numpy as np
-
-from simart_kit.arrays import FloatArray
-from simart_kit.asset import Asset, ConvexMesh
-from simart_kit.kinematics import rest_origin, span
-
-from .gaps import rigid
-from .mjcf_bodies import add_bodies
-from .mjcf_shapes import set_primitive
-from .sheets import backed_hull
-
-if TYPE_CHECKING:
-    import mujoco
-
-    Depths = dict[tuple[str, str], float]
-
-TOLERANCE = 1e-5
-"""How deep shapes may overlap and still count as touching [m]."""
-
-_STOPS = 9
+from simart_kit.asset import Asset
+from simart_kit.separation import overlaps, overlaps_on_the_way, rigid_bodies, still
 
 
 @dataclass(frozen=True)
@@ -53,28 +34,26 @@ def overlapping_parts(asset: Asset) -> dict[tuple[str, str], Overlap]:
     makes them overlap: shapes are coarser than surfaces, and would stop a door short of its limit. Pairs that
     MuJoCo never collides, such as a part and the one that it moves on where the base is free, are left out.
     """
-    import mujoco
-
-    if not any(part.collision for part in asset.parts):
-        return {}
-    model = _collision_spec(asset).compile()
-    data = mujoco.MjData(model)
-    at_rest = _depths(model, data, {})
+    at_rest = {(o.one, o.other): o.depth for o in overlaps(asset)}
     deepest = dict(at_rest)
-    for joint in asset.joints:
-        if rigid(joint) or span(joint) == (0.0, 0.0):
-            continue
-        for position in np.linspace(*span(joint), _STOPS):
-            on_the_way = _depths(model, data, {joint.name: float(position)})
-            for pair, depth in on_the_way.items():
-                if set(pair) == {joint.parent, joint.child}:
-                    deepest[pair] = max(depth, deepest.get(pair, 0.0))
-    overlaps = {pair: Overlap(depth, pair in at_rest) for pair, depth in deepest.items()}
-    index = asset.part_index
-    ordered = {(min(pair, key=index), max(pair, key=index)): found for pair, found in overlaps.items()}
+    for found in overlaps_on_the_way(asset):
+        pair = (found.one, found.other)
+        deepest[pair] = max(found.depth, deepest.get(pair, 0.0))
+    body = dict(zip((part.name for part in asset.parts), rigid_bodies(asset).tolist(), strict=True))
+    passing = _passing(asset, body)
+    order = {part.name: index for index, part in enumerate(asset.parts)}
     return {
-        pair: ordered[pair] for pair in sorted(ordered, key=lambda pair: (index(pair[0]), index(pair[1])))
+        pair: Overlap(deepest[pair], pair in at_rest)
+        for pair in sorted(deepest, key=lambda pair: (order[pair[0]], order[pair[1]]))
+        if frozenset(body[name] for name in pair) not in passing
     }
+
+
+def _passing(asset: Asset, body: Mapping[str, int]) -> set[frozenset[int]]:
+    """Rigid bodies that MuJoCo lets pass: one and what it moves on, unless that is fixed to the world."""
+    fixed = None if asset.floating else body[asset.root.name]
+    joints = [j for j in asset.joints if j.kind != "free" and not still(j)]
+    return {frozenset((body[j.parent], body[j.child])) for j in joints if body[j.parent] != fixed}
 
 
 def overlapping_strangers(asset: Asset) -> dict[tuple[str, str], Overlap]:
@@ -83,54 +62,7 @@ def overlapping_strangers(asset: Asset) -> dict[tuple[str, str], Overlap]:
     return {pair: found for pair, found in overlapping_parts(asset).items() if set(pair) not in jointed}
 
 
-def told(overlaps: Mapping[tuple[str, str], Overlap]) -> tuple[str, list[str]]:
+def told(found: Mapping[tuple[str, str], Overlap]) -> tuple[str, list[str]]:
     """What it means, and each of `overlapping_parts` in words."""
-    words = [overlap.words(*pair) for pair, overlap in overlaps.items()]
+    words = [overlap.words(*pair) for pair, overlap in found.items()]
     return "collision shapes overlap, so contact between the parts is off", words
-
-
-def _depths(model: mujoco.MjModel, data: mujoco.MjData, positions: dict[str, float]) -> Depths:
-    """How deep parts overlap at joint positions [rad | m]; joints left out are at rest."""
-    import mujoco
-
-    mujoco.mj_resetData(model, data)
-    for name, position in positions.items():
-        data.joint(name).qpos[0] = position
-    mujoco.mj_kinematics(model, data)
-    mujoco.mj_collision(model, data)
-    found, contact = np.unique(np.sort(model.geom_bodyid[data.contact.geom]), axis=0, return_inverse=True)
-    deepest = np.zeros(len(found))
-    np.maximum.at(deepest, contact.ravel(), -data.contact.dist)
-    return {
-        (model.body(first).name, model.body(second).name): float(depth)
-        for (first, second), depth in zip(found, deepest, strict=True)
-        if depth > TOLERANCE
-    }
-
-
-def _collision_spec(asset: Asset) -> mujoco.MjSpec:
-    """The bodies and joints with collision shapes alone; every body has mass, so that all may move."""
-    import mujoco
-
-    spec = mujoco.MjSpec()
-    spec.compiler.degree = False
-    for name, body in add_bodies(spec.worldbody, asset, {p.name: p.name for p in asset.parts}).items():
-        body.mass, body.inertia, body.explicitinertial = 1.0, [1.0, 1.0, 1.0], True
-        for index, shape in enumerate(asset.part(name).collision):
-            _add_shape(spec, body, f"{name}_{index}_mesh", shape, rest_origin(asset, name))
-    return spec
-
-
-def _add_shape(
-    spec: mujoco.MjSpec, body: mujoco.MjsBody, mesh: str, shape: ConvexMesh, origin: FloatArray
-) -> None:
-    import mujoco
-
-    geom = body.add_geom()
-    if shape.primitive:
-        set_primitive(geom, shape.primitive, origin)
-        return
-    hull = backed_hull(shape)
-    vertices = (hull.vertices - origin).ravel()
-    spec.add_mesh(name=mesh, uservert=vertices, userface=hull.faces.ravel())
-    geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, mesh

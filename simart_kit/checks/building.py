@@ -7,13 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays import FloatArray
+from ..mujoco_joints import STIFF_FRICTION, joint_type
 from .mechanism import WORLD, Body, Link, Mechanism
 
 if TYPE_CHECKING:
     import mujoco
-
-# With the 0.9 .. 0.95 of MuJoCo dry friction is soft: a lid that it holds creeps. MJCF is written like this.
-_STIFF_FRICTION = [0.9999, 0.9999, 0.001, 0.5, 2.0]
 
 
 def spec_of(mechanism: Mechanism) -> mujoco.MjSpec:
@@ -64,17 +62,10 @@ def _fill(spec: mujoco.MjSpec, body: mujoco.MjsBody, source: Body, origin: Float
 def _add_joint(body: mujoco.MjsBody, link: Link) -> None:
     import mujoco
 
-    kinds = {
-        "revolute": mujoco.mjtJoint.mjJNT_HINGE,
-        "continuous": mujoco.mjtJoint.mjJNT_HINGE,
-        "prismatic": mujoco.mjtJoint.mjJNT_SLIDE,
-        "ball": mujoco.mjtJoint.mjJNT_BALL,
-    }
-    joint = body.add_joint(name=link.name, type=kinds[link.kind], axis=link.axis)
+    joint = body.add_joint(name=link.name, type=joint_type(link.kind), axis=link.axis)
     joint.frictionloss, joint.armature = link.friction, link.armature
-    joint.solimp_friction = _STIFF_FRICTION
+    joint.solimp_friction = STIFF_FRICTION
     joint.damping = np.array([link.damping, 0.0, 0.0])
-    joint.solimp_friction = [0.9999, 0.9999, 0.001, 0.5, 2.0]  # dry friction that holds instead of creeping
     if link.lower is not None and link.upper is not None:
         joint.range = [link.lower, link.upper]
         joint.limited = mujoco.mjtLimited.mjLIMITED_TRUE

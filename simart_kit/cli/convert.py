@@ -39,6 +39,13 @@ TransferMode = Annotated[
     ),
 ]
 
+Floating = Annotated[
+    bool, typer.Option("--floating", help="Leave the base free instead of fixed to the world.")
+]
+Strict = Annotated[
+    bool, typer.Option("--strict", help="Exit with 1 if a check fails; files are written all the same.")
+]
+
 
 def convert(
     mesh: Annotated[Path, typer.Argument(metavar="MESH", help="Mesh file.")],
@@ -53,13 +60,9 @@ def convert(
     unit: Unit = None,
     height: Annotated[float | None, typer.Option(metavar="M", help="Real height of the object [m].")] = None,
     scale: Annotated[float | None, typer.Option(metavar="F", help="Factor on the size.")] = None,
-    floating: Annotated[
-        bool, typer.Option("--floating", help="Leave the base free instead of fixed to the world.")
-    ] = False,
+    floating: Floating = False,
     plugin: PluginFiles = None,
-    strict: Annotated[
-        bool, typer.Option("--strict", help="Exit with 1 if a check fails; files are written all the same.")
-    ] = False,
+    strict: Strict = False,
     no_record: Annotated[bool, typer.Option("--no-record", help="Write no rerun recording.")] = False,
     json: Json = False,
     verbose: Verbose = False,
