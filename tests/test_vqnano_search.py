@@ -1,6 +1,7 @@
 """Encoding by trial: what it tries, and that what comes back is never worse than without."""
 
 import torch
+from simart_kit_plugins.simart.codec import nearest_codes
 from simart_kit_plugins.simart.training.grids import Grids, pack
 from simart_kit_plugins.simart.vqnano.blocks import neighbour_rows
 from simart_kit_plugins.simart.vqnano.model import VqNano
@@ -30,6 +31,16 @@ def test_one_candidate_is_the_nearest_code():
     trial, features = trial_of(model, grids)
     nearest = model.quantiser.quantise(features, trial.picked).codes
     assert torch.equal(best_codes(model, trial.truth, features, trial.picked), nearest)
+
+
+def test_a_model_that_takes_the_nearest_codes_shares_its_weights_and_leaves_the_other_as_it_is():
+    model, grids = trained(candidates=6)
+    quick = nearest_codes(model)
+    trial, features = trial_of(model, grids)
+    nearest = model.quantiser.quantise(features, trial.picked).codes
+    assert torch.equal(quick.encode(grids).codes[trial.picked], nearest)
+    assert model.config.candidates == 6
+    assert next(quick.parameters()) is next(model.parameters())
 
 
 def test_trying_candidates_costs_less_and_each_is_one_of_the_nearest():

@@ -6,6 +6,7 @@ itself. So its tokens tell where it is, and its decoded voxels are seeds on the 
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
@@ -116,6 +117,21 @@ def token_grid(model: TokenModel) -> TokenGrid:
     if config.resolution != RESOLUTION:
         raise BadInputError(f"a model of {config.resolution}^3 voxels: voxel tokens need {RESOLUTION}^3")
     return TokenGrid(config.cells, config.codebook_size)
+
+
+def nearest_codes(model: TokenModel) -> TokenModel:
+    """The model, sharing its weights, that encodes with the nearest codes and tries no others.
+
+    Where a model encodes by trial (vq-nano) this is some 15 times as fast, for a part IoU that is lower by
+    about 0.03; a model that does not is returned as it is. Language models are trained and asked with it.
+    """
+    from .vqnano.model import VqNano
+
+    if not isinstance(model, VqNano):
+        return model
+    quick = copy.copy(model)
+    quick.config = model.config.model_copy(update={"candidates": 1})
+    return quick
 
 
 def object_frame(mesh: Mesh) -> GridFrame:
