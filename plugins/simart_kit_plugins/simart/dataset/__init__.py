@@ -1,0 +1,1 @@
+"""Instruction data: articulated objects in many states, as questions and answers."""

@@ -1,0 +1,1 @@
+"""Decoding under a grammar: output that is not valid cannot be written."""

@@ -1,0 +1,1 @@
+"""The language model: tokenizer, sizes, weights, and files that belong together."""
