@@ -87,25 +87,27 @@ class ObjectAnswer:
 
     def __post_init__(self) -> None:
         """Check what the grammar promises, for every way an answer can be made."""
-        _check_name("object_captions", self.name)
+        _check_name("object_captions: name", self.name)
         if not (math.isfinite(self.scale) and self.scale > 0):
             raise BadInputError(f"object_captions: scale {self.scale} must be a length above 0 [cm]")
         if not self.parts:
             raise BadInputError("parts_captions: there is no part")
         for number, part in enumerate(self.parts):
             _check_part(number, part)
+            if part.voxels.grid != self.parts[0].voxels.grid:
+                raise BadInputError(f"part {number}: its voxels are of another grid than those of part 0")
 
 
 def _check_name(where: str, name: str) -> None:
     if name and (len(name) > NAME_LENGTH or not NAME_PATTERN.fullmatch(name)):
         raise BadInputError(
-            f"{where}: name {name!r} must be 1 to {NAME_LENGTH} letters, digits, blanks, '-' and '_'"
+            f"{where} {name!r} must be 1 to {NAME_LENGTH} letters, digits, blanks, '-' and '_'"
         )
 
 
 def _check_part(number: int, part: PartAnswer) -> None:
     where = f"part {number}"
-    _check_name(where, part.name)
+    _check_name(f"{where}: name", part.name)
     if part.type not in PART_TYPES:
         raise BadInputError(f"{where}: type {part.type!r} is not one of {', '.join(PART_TYPES)}")
     if number == 0 and (part.parent is not None or part.type != "fixed"):
@@ -139,10 +141,7 @@ def _check_motion(where: str, kind: str, motion: Motion) -> None:
 
 
 def _check_text(where: str, part: PartAnswer) -> None:
-    if part.material and not NAME_PATTERN.fullmatch(part.material):
-        raise BadInputError(
-            f"{where}: material {part.material!r} must be letters, digits, blanks, '-' and '_'"
-        )
+    _check_name(f"{where}: material", part.material)
     for what, value in (("density", part.density), ("Young's modulus", part.youngs_modulus)):
         if value is not None and not (math.isfinite(value) and value > 0):
             raise BadInputError(f"{where}: {what} {value} must be above 0")
