@@ -1,1 +1,1 @@
-"""Decoding under a grammar: output that is not valid cannot be written."""
+"""The grammar of answers: one script that writes training targets and that decodes nothing but valid ones."""
