@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .arrays import Float32Array, FloatArray, IntArray, frozen_floats, frozen_ints
+from .arrays import ByteArray, Float32Array, FloatArray, IntArray, frozen_bytes, frozen_floats, frozen_ints
 from .voxels import GridFrame
 
 
@@ -117,7 +117,53 @@ class VertexEvidence:
         object.__setattr__(self, "values", values)
 
 
-Evidence = VoxelEvidence | PointEvidence | VertexEvidence
+@dataclass(frozen=True, slots=True)
+class TextEvidence:
+    """Words, such as what a language model was asked and said.
+
+    Attributes:
+        name: of its view.
+        markdown: the text.
+
+    Raises:
+        ValueError: there is no name.
+    """
+
+    name: str
+    markdown: str
+
+    def __post_init__(self) -> None:
+        """Check the name."""
+        _named(self.name, "text evidence")
+
+
+@dataclass(frozen=True, eq=False)
+class PictureEvidence:
+    """A picture, such as the one that a model was shown.
+
+    Attributes:
+        name: of its view.
+        pixels: (H, W, 3) uint8 sRGB.
+
+    Raises:
+        ValueError: another shape or dtype, or no pixel.
+    """
+
+    name: str
+    pixels: ByteArray
+
+    def __post_init__(self) -> None:
+        """Check the shape and take a copy that nobody can write to."""
+        where = _named(self.name, "picture evidence")
+        if self.pixels.dtype != np.uint8:
+            raise ValueError(f"{where}: pixels must be uint8, found {self.pixels.dtype}")
+        _require_shape(where, "pixels", self.pixels, (*self.pixels.shape[:2], 3))
+        if not self.pixels.size:
+            raise ValueError(f"{where}: there is no pixel")
+        object.__setattr__(self, "pixels", frozen_bytes(self.pixels))
+
+
+Evidence = VoxelEvidence | PointEvidence | VertexEvidence | TextEvidence | PictureEvidence
 
 
 def check_evidence(evidence: Sequence[Evidence], vertices: int) -> None:

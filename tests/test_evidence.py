@@ -7,15 +7,23 @@ import pytest
 from simart_kit_plugins.recorder import Recorder
 
 from simart_kit.colors import part_color
-from simart_kit.evidence import PointEvidence, VertexEvidence, VoxelEvidence, check_evidence
+from simart_kit.evidence import (
+    PictureEvidence,
+    PointEvidence,
+    TextEvidence,
+    VertexEvidence,
+    VoxelEvidence,
+    check_evidence,
+)
 from simart_kit.report import Report
 from simart_kit.testing.meshes import cabinet_asset
 from simart_kit.voxels import GridFrame
 
-from .recordings import paths_in, run_in, segmentation_of, source_of, values, views
+from .recordings import paths_in, run_in, segmentation_of, source_of, text, values, views
 
 FRAME = GridFrame((1.0, 2.0, 3.0), 0.5, 64)
 CELLS = np.array([[0, 0, 0], [1, 2, 3], [63, 0, 5]])
+PIXELS = np.arange(24, dtype=np.uint8).reshape(2, 4, 3)
 
 
 def test_arrays_are_copies_that_nobody_can_write_to():
@@ -57,6 +65,11 @@ def test_whole_values_are_kinds():
         ),
         (lambda: VertexEvidence("a", np.array([0.0, 1.5])), r"must lie in 0\.\.1"),
         (lambda: VertexEvidence("a", np.array([0.0, np.nan])), r"must lie in 0\.\.1"),
+        (lambda: TextEvidence("", "words"), "text evidence needs a name"),
+        (lambda: PictureEvidence("a", PIXELS[..., :2]), r"shape \(2, 4, 2\), expected \(2, 4, 3\)"),
+        (lambda: PictureEvidence("a", PIXELS[0]), r"shape \(4, 3\), expected \(4, 3, 3\)"),
+        (lambda: PictureEvidence("a", PIXELS / 255), "must be uint8, found float64"),
+        (lambda: PictureEvidence("a", PIXELS[:0]), "there is no pixel"),
     ],
 )
 def test_wrong_evidence_is_refused(make, told):
@@ -71,6 +84,8 @@ def test_evidence_has_to_be_of_the_mesh_and_have_names_of_its_own():
         check_evidence((shares,), 6)
     with pytest.raises(ValueError, match="'shares' comes twice"):
         check_evidence((shares, shares), 5)
+    with pytest.raises(ValueError, match="'said' comes twice"):
+        check_evidence((TextEvidence("said", "yes"), PictureEvidence("said", PIXELS)), 5)
 
 
 @pytest.fixture(scope="module")
@@ -85,6 +100,9 @@ def recording(tmp_path_factory):
         VoxelEvidence("Nothing", FRAME, CELLS[:0], np.zeros(0)),
         PointEvidence("Seeds", np.arange(12.0).reshape(4, 3), np.array([1, 0, 1, 1]), ("body", "Tür Ω")),
         VertexEvidence("Chances", shares, ("body", "door")),
+        TextEvidence("Question", "What is **this**? Eine Tür, Ω?"),
+        PictureEvidence("Picture shown", PIXELS),
+        TextEvidence("Said", "a cabinet"),
     )
     run, recorder = run_in(tmp_path_factory.mktemp("evidence")), Recorder()
     recorder.run_started(run)
@@ -136,3 +154,12 @@ def test_shares_are_drawn_where_they_are_not_zero(recording):
 
 def test_an_empty_piece_leaves_its_view_empty(recording):
     assert "/evidence/nothing" not in paths_in(recording)
+
+
+def test_words_and_pictures_have_views_of_their_kind(recording):
+    shown = views(recording)
+    assert {"evidence/question", "evidence/said"} <= shown["TextDocument"]
+    assert "evidence/picture_shown" in shown["2D"]
+    # The viewer has no glyph for the omega.
+    assert text(recording, "/evidence/question") == "What is **this**? Eine Tür, \\u03a9?"
+    assert values(recording, "/evidence/picture_shown", "Image:buffer")[0][0] == [PIXELS.ravel().tolist()]

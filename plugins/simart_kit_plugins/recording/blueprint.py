@@ -101,16 +101,23 @@ def _stage_views(history: History) -> list[Any]:
 
 
 def _evidence_views(history: History) -> list[Any]:
-    """A view a piece of evidence for the parts; tabs where it is of several things."""
+    """A view a piece of evidence for the parts; tabs where it is of several things, and for all words."""
+    import rerun.blueprint as rrb
+
     if history.source is None or history.segmentation is None:
         return []
     bounds = history.source.mesh.bounds
-    return [_evidence_view(view, bounds) for view in evidence_views(history.segmentation.evidence)]
+    views = evidence_views(history.segmentation.evidence)
+    words = [_text(view.origin, view.name) for view in views if view.kind == "words"]
+    seen = [_evidence_view(view, bounds) for view in views if view.kind != "words"]
+    return [*seen, rrb.Tabs(*words, name="Words")] if words else seen
 
 
 def _evidence_view(view: EvidenceView, bounds: FloatArray) -> Any:
     import rerun.blueprint as rrb
 
+    if view.kind == "picture":
+        return rrb.Spatial2DView(origin=view.origin, name=view.name)
     if not view.tabs:
         return _view(view.origin, view.name, bounds)
     # The viewer shows the names of tabs, but none of what holds them.

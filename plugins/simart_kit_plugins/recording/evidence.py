@@ -4,13 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from simart_kit.arrays import ByteArray, Float32Array, FloatArray, IntArray
 from simart_kit.asset import clean_name, unique_names
 from simart_kit.colors import part_color
-from simart_kit.evidence import Evidence, PointEvidence, VertexEvidence, VoxelEvidence
+from simart_kit.evidence import (
+    Evidence,
+    PictureEvidence,
+    PointEvidence,
+    TextEvidence,
+    VertexEvidence,
+    VoxelEvidence,
+)
 from simart_kit.mesh import Mesh
 
 from .colors import segment_colors
@@ -36,11 +44,13 @@ class EvidenceView:
         name: for people.
         origin: entity that it shows; each of `tabs` lies below it.
         tabs: of a piece that holds several pictures, (entity, name) of each; none for one picture.
+        kind: what it shows: things in space, a picture, or words.
     """
 
     name: str
     origin: str
     tabs: tuple[tuple[str, str], ...] = ()
+    kind: Literal["space", "picture", "words"] = "space"
 
 
 def evidence_views(evidence: Sequence[Evidence]) -> tuple[EvidenceView, ...]:
@@ -52,6 +62,10 @@ def evidence_views(evidence: Sequence[Evidence]) -> tuple[EvidenceView, ...]:
         if isinstance(piece, VertexEvidence) and len(piece.names) > 1:
             tabs = zip(_below(origin, piece.names), map(readable, piece.names), strict=True)
             views.append(EvidenceView(title, origin, tuple(tabs)))
+        elif isinstance(piece, PictureEvidence):
+            views.append(EvidenceView(title, origin, kind="picture"))
+        elif isinstance(piece, TextEvidence):
+            views.append(EvidenceView(title, origin, kind="words"))
         else:
             views.append(EvidenceView(title, origin))
     return tuple(views)
@@ -66,11 +80,17 @@ def log_evidence(tape: Tape, mesh: Mesh, shaded: Mesh, evidence: Sequence[Eviden
         shaded: the same faces with normals, vertices at creases split.
         evidence: of one stage.
     """
+    import rerun as rr
+
     for view, piece in zip(evidence_views(evidence), evidence, strict=True):
         if isinstance(piece, VoxelEvidence):
             _log_voxels(tape, view.origin, piece)
         elif isinstance(piece, PointEvidence):
             _log_points(tape, view.origin, piece)
+        elif isinstance(piece, TextEvidence):
+            tape.static(view.origin, rr.TextDocument(readable(piece.markdown), media_type="text/markdown"))
+        elif isinstance(piece, PictureEvidence):
+            tape.static(view.origin, rr.Image(piece.pixels, color_model="RGB"))
         else:
             entities = [entity for entity, _ in view.tabs] or [view.origin]
             values = np.zeros((len(shaded.vertices), len(piece.names)), dtype=np.float32)
