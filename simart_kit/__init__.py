@@ -29,6 +29,7 @@ if TYPE_CHECKING:
         StageError,
         UnknownPluginError,
     )
+    from .grounding import Candidate, Grounded, Grounding, ground
     from .mesh import Image, Mesh, Note, VisualMaterial
     from .pipeline import Result, convert
     from .plugins import Plugins
@@ -54,6 +55,7 @@ _HOMES = {
         "StageError",
         "UnknownPluginError",
     ),
+    "grounding": ("Candidate", "Grounded", "Grounding", "ground"),
     "mesh": ("Image", "Mesh", "Note", "VisualMaterial"),
     "pipeline": ("Result", "convert"),
     "plugins": ("Plugins",),
@@ -67,10 +69,13 @@ __all__ = [
     "AmbiguousPluginError",
     "Asset",
     "BadInputError",
+    "Candidate",
     "Check",
     "CheckResult",
     "ConvexMesh",
     "Exporter",
+    "Grounded",
+    "Grounding",
     "Image",
     "Joint",
     "JointPredictor",
@@ -100,6 +105,7 @@ __all__ = [
     "UnknownPluginError",
     "VisualMaterial",
     "convert",
+    "ground",
     "hookimpl",
     "load_asset",
     "save_asset",

@@ -29,6 +29,11 @@ def frozen_ints(values: ArrayLike) -> IntArray:
     return _freeze(np.array(values, dtype=np.int32, order="C"))
 
 
+def frozen_bools(values: ArrayLike) -> BoolArray:
+    """A read-only, contiguous bool array; never a view of a writable one."""
+    return _freeze(np.array(values, dtype=np.bool_, order="C"))
+
+
 def frozen_bytes(values: ArrayLike) -> ByteArray:
     """A read-only, contiguous uint8 array; never a view of a writable one."""
     return _freeze(np.array(values, dtype=np.uint8, order="C"))

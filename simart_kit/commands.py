@@ -11,14 +11,16 @@ from typing import Any
 # Groups that take commands of plugins. Those that are not the core's own exist once a command is in them.
 GROUPS = {
     "bench": "Score articulation against ground truth.",
+    "dataset": "Make data to train models on.",
     "model": "Import and inspect model weights.",
     "train": "Train a model.",
 }
 # Names of the command line itself, which a plugin cannot have: it would stand in the way of the tool.
 CORE_NAMES = frozenset(
     {
-        *("convert", "export", "check", "inspect", "version", "recipes", "plugins", *GROUPS),
-        *(f"bench {name}" for name in ("run", "score", "compare", "report", "import")),
+        *("convert", "ground", "export", "check", "inspect", "doctor", "version", "recipes", "plugins"),
+        *GROUPS,
+        *(f"bench {name}" for name in ("run", "score", "compare", "report", "import", "grounding")),
     }
 )
 _WORD = r"[a-z][a-z0-9]*(-[a-z0-9]+)*"

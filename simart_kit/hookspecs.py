@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING, Protocol
 import pluggy
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from .findings import Finding
     from .mesh import Mesh
     from .report import Report
     from .runner import Run
@@ -75,6 +78,11 @@ def register_commands(register: RegisterCommand) -> None:
 
     The function's module is imported when the command is used, and not before.
     """
+
+
+@hookspec
+def diagnose() -> Iterable[Finding] | None:
+    """Tell `simart-kit doctor` what this plugin needs and whether it is there; import nothing heavy."""
 
 
 @hookspec(firstresult=True)

@@ -161,7 +161,7 @@ def test_two_commands_of_one_name_are_an_error_when_it_is_used(install, capfd):
 def test_the_core_s_names_are_those_of_its_commands():
     tree = get_command(app)
     names = set(tree.commands) | {f"bench {name}" for name in tree.commands["bench"].commands}
-    assert names | {"train", "model"} == CORE_NAMES
+    assert names | {"train", "model", "dataset"} == CORE_NAMES
 
 
 @pytest.mark.parametrize("name", ["version", "bench", "bench score", "train"])
@@ -186,7 +186,7 @@ def test_a_core_name_is_refused_with_both_owners_and_the_core_s_command_works(in
         ("train a b", "a:b", "is not one or two words"),
         ("", "a:b", "is not one or two words"),
         ("--greet", "a:b", "is not one or two words"),
-        ("recipes greet", "a:b", "is in no group that takes commands: bench, model, train"),
+        ("recipes greet", "a:b", "is in no group that takes commands: bench, dataset, model, train"),
         ("greet", "a.b", "is not of the form package.module:function"),
     ],
 )

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
+from simart_kit.findings import Finding, library
 from simart_kit.hookspecs import hookimpl
 
 from .recording.history import Event, Failure, History
@@ -51,6 +52,11 @@ class Recorder:
         """Write the whole run."""
         if run in self._histories:
             self._write(run, replace(self._histories.pop(run), report=report))
+
+    @hookimpl
+    def diagnose(self) -> list[Finding]:
+        """The recordings' own library; without it a run goes on."""
+        return [library("rerun-sdk", stages=())]
 
     def _write(self, run: Run, history: History) -> None:
         from .recording.write import write_recording

@@ -10,7 +10,9 @@ from . import bench, plugins, recipes
 from .check import check
 from .common import help_when_alone
 from .convert import convert
+from .doctor import doctor
 from .export import export
+from .ground import ground
 from .inspect import inspect
 from .plugin_commands import PluginGroup
 from .version import print_version, version
@@ -29,7 +31,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     add_completion=False,
 )
-for command in (convert, export, check, inspect, version):
+for command in (convert, ground, export, check, inspect, doctor, version):
     app.command(epilog=EPILOG)(command)
 app.add_typer(bench.app, name="bench")
 app.add_typer(recipes.app, name="recipes")

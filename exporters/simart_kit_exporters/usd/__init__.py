@@ -9,6 +9,7 @@ from pydantic import Field
 
 from simart_kit import stages
 from simart_kit.asset import Asset
+from simart_kit.findings import Finding, library
 from simart_kit.hookspecs import Register, hookimpl
 
 from .gaps import gaps
@@ -71,3 +72,9 @@ class Usd(stages.Exporter):
 def register_exporters(register: Register) -> None:
     """Register the USD exporter."""
     register(Usd)
+
+
+@hookimpl
+def diagnose() -> list[Finding]:
+    """OpenUSD's libraries."""
+    return [library("usd-core")]

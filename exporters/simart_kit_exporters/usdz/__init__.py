@@ -7,6 +7,7 @@ from tempfile import TemporaryDirectory
 
 from simart_kit import stages
 from simart_kit.asset import Asset
+from simart_kit.findings import Finding, library
 from simart_kit.hookspecs import Register, hookimpl
 
 from .gaps import gaps
@@ -45,3 +46,9 @@ class Usdz(stages.Exporter):
 def register_exporters(register: Register) -> None:
     """Register the USDZ exporter."""
     register(Usdz)
+
+
+@hookimpl
+def diagnose() -> list[Finding]:
+    """OpenUSD's libraries."""
+    return [library("usd-core")]

@@ -23,6 +23,7 @@ import numpy as np
 
 from simart_kit import BadInputError, Mesh, hookimpl
 from simart_kit.arrays import FloatArray, IntArray
+from simart_kit.findings import Finding, library
 from simart_kit.mesh import UpAxis
 
 from .dae import dae_frame
@@ -162,3 +163,10 @@ def _rows(values: Any, count: int, columns: int) -> FloatArray | None:
     if values is None or np.ndim(values) != 2 or len(values) != count or np.shape(values)[1] < columns:
         return None
     return np.asarray(values, dtype=np.float64)[:, :columns]
+
+
+@hookimpl
+def diagnose() -> list[Finding]:
+    """The parsers; those of DAE and 3MF are used for these formats alone."""
+    of_formats = (library(name, stages=()) for name in ("pycollada", "lxml", "networkx"))
+    return [library("trimesh"), *of_formats]

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from simart_kit import BadInputError, Mesh, hookimpl
+from simart_kit.findings import Finding, library
 from simart_kit.mesh import UpAxis
 
 from .folder import inside
@@ -125,3 +126,9 @@ def _diagnostics() -> Iterator[Callable[[], list[str]]]:
         ) from error
     finally:
         said()
+
+
+@hookimpl
+def diagnose() -> list[Finding]:
+    """OpenUSD's libraries; other formats are read without."""
+    return [library("usd-core", stages=())]

@@ -17,7 +17,9 @@ from simart_kit.coarsening import coarsened
 from simart_kit.convex_decomposition import lacks
 from simart_kit.cutting import WORK
 from simart_kit.decompose import Budget, Decomposition, decompose, decompose_by_tool
+from simart_kit.findings import Finding, library
 from simart_kit.fitting import aligned_box
+from simart_kit.hinge_relief import relieved
 from simart_kit.hookspecs import Register
 from simart_kit.hulls import MIN_THICKNESS, convex_hull
 from simart_kit.separation import Overlap, overlaps, separated
@@ -79,8 +81,11 @@ class Collision(sk.Modifier):
         if found and options.margin and options.mode in ("auto", "decompose"):
             done = carved_apart(done)
             found = overlaps(done)
+        done, freed = relieved(done) if options.margin and options.mode != "box" else (done, ())
         problems = [f"{name} has looser shapes: {m.problem}" for name, m in made.items() if m.problem]
-        done = done.with_notes("collision", "info", [_counts(options.mode, done), *_told(found)])
+        done = done.with_notes(
+            "collision", "info", [_counts(options.mode, done), *_told(found), *_freed(freed)]
+        )
         return done.with_notes("collision", "warning", problems)
 
     def _refined(
@@ -155,7 +160,20 @@ def _told(found: Iterable[Overlap]) -> list[str]:
     )
 
 
+def _freed(names: Sequence[str]) -> list[str]:
+    """A sentence naming the parts whose shapes give way at their hinge; none when none do."""
+    return [f"collision shapes begin off the hinge, to pass what is beside it: {', '.join(names)}"] * bool(
+        names
+    )
+
+
 @sk.hookimpl
 def register_modifiers(register: Register) -> None:
     """Register the modifier."""
     register(Collision)
+
+
+@sk.hookimpl
+def diagnose() -> list[Finding]:
+    """The tools of mode decompose; without them, hulls stand in."""
+    return [library("vhacdx", stages=()), library("coacd", extra="coacd", stages=())]

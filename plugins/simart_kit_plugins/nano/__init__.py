@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from simart_kit.hookspecs import hookimpl
 
 if TYPE_CHECKING:
+    from simart_kit.findings import Finding
     from simart_kit.hookspecs import Register, RegisterCommand
 
 _COMMANDS = "simart_kit_plugins.nano.commands"
@@ -26,3 +27,11 @@ def register_commands(register: RegisterCommand) -> None:
     register("generate", f"{_COMMANDS}.generate:generate", "Write made-up articulated objects.")
     register("train nano", f"{_COMMANDS}.train_nano:train_nano", "Train the small model of parts and joints.")
     register("bench oracle", f"{_COMMANDS}.oracle:oracle", "Tell where nano loses parts and joints.")
+
+
+@hookimpl
+def diagnose() -> list[Finding]:
+    """The libraries that the network needs, and its weights."""
+    from .diagnosis import findings
+
+    return findings()

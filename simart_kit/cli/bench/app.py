@@ -8,6 +8,7 @@ from ...commands import GROUPS
 from ..common import help_when_alone
 from ..plugin_commands import PluginGroup
 from .compare import compare
+from .grounding import grounding
 from .importing import import_objects
 from .report import report
 from .run import run
@@ -15,6 +16,6 @@ from .score import score
 
 app = typer.Typer(cls=PluginGroup, help=GROUPS["bench"], rich_markup_mode=None)
 app.callback(invoke_without_command=True)(help_when_alone)
-for command in (run, score, compare, report):
+for command in (run, score, compare, report, grounding):
     app.command()(command)
 app.command("import")(import_objects)
