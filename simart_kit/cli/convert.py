@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
 
 from .common import load_plugins, print_json, stdout_kept, warn
 from .options import Json, PluginFiles, Sets, Verbose
-
-if TYPE_CHECKING:
-    from ..plugins import Plugins
 
 RecipeName = Annotated[
     str, typer.Option("--recipe", "-r", metavar="NAME|FILE", help="Recipe; see `recipes list`.")
@@ -38,7 +35,24 @@ TransferMode = Annotated[
         "segment whose faces agree. Short for --set segmenter.options.transfer=...",
     ),
 ]
-
+Photo = Annotated[
+    Path | None,
+    typer.Option(
+        "--image",
+        metavar="PHOTO",
+        help="For segmenters that look at a picture, such as simart: a photo of the object instead of a "
+        "rendered one. Short for --set segmenter.options.image=...",
+    ),
+]
+Words = Annotated[
+    str | None,
+    typer.Option(
+        "--text",
+        metavar="TEXT",
+        help="For segmenters that read text, such as simart: what the object is, such as 'a fridge'. Short "
+        "for --set segmenter.options.text=...",
+    ),
+]
 Floating = Annotated[
     bool, typer.Option("--floating", help="Leave the base free instead of fixed to the world.")
 ]
@@ -56,6 +70,8 @@ def convert(
     ] = None,
     sets: Sets = None,
     transfer: TransferMode = None,
+    image: Photo = None,
+    words: Words = None,
     up: Up = None,
     unit: Unit = None,
     height: Annotated[float | None, typer.Option(metavar="M", help="Real height of the object [m].")] = None,
@@ -74,6 +90,7 @@ def convert(
     """
     from ..pipeline import convert as run
     from .progress import progress
+    from .shorthands import shorthand_sets
     from .summary import document, text
 
     if verbose and quiet:
@@ -84,13 +101,13 @@ def convert(
             warn(f"plugin {failure}" for failure in plugins.failures)
         with progress(quiet) as observer:
             plugins.register(observer)
-            _check_transfer(transfer, recipe, sets or (), plugins)
+            short = {"transfer": transfer, "image": image, "text": words}
             result = run(
                 mesh,
                 recipe,
                 out=out,
                 name=name,
-                sets=[*(sets or ()), *_transfer_sets(transfer)],
+                sets=[*(sets or ()), *shorthand_sets(short, recipe, sets or (), plugins)],
                 up=up,
                 unit=unit,
                 height=height,
@@ -115,23 +132,3 @@ def _uncollected() -> Iterator[None]:
         yield
     finally:
         gc.enable()
-
-
-def _transfer_sets(transfer: str | None) -> list[str]:
-    return [] if transfer is None else [f'segmenter.options.transfer="{transfer}"']
-
-
-def _check_transfer(transfer: str | None, recipe: str, sets: Sequence[str], plugins: Plugins) -> None:
-    """Say what `--transfer` is for where the recipe's segmenter has no such option."""
-    if transfer is None:
-        return
-    from ..errors import BadInputError
-    from ..recipe import load_recipe
-    from ..stages import Segmenter
-
-    use = load_recipe(recipe, plugins, sets).segmenter.use
-    if "transfer" not in plugins.find(Segmenter.kind, use).value.Options.model_fields:
-        raise BadInputError(
-            f"--transfer {transfer}: segmenter '{use}' decodes no voxels; "
-            "use it with one that does, such as --recipe tokens"
-        )

@@ -1,0 +1,21 @@
+"""What the paper's method needs, for `simart-kit doctor`; looked for without importing torch."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from simart_kit.findings import Finding, library, weights
+
+_CODEC = Path(__file__).parent / "weights" / "vq-nano"
+_LANGUAGE = ("transformers", "tokenizers", "accelerate", "peft")
+
+
+def findings() -> list[Finding]:
+    """The libraries, the voxel model that comes with the package, and the extra of the language model."""
+    again = "pip install --force-reinstall simart-kit, or train your own with `simart-kit train vqvae`"
+    return [
+        library("torch"),
+        library("safetensors"),
+        weights("weights of vq-nano", _CODEC, again),
+        *(library(name, extra="mllm", stages=("simart",)) for name in _LANGUAGE),
+    ]

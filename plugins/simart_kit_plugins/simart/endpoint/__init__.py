@@ -1,0 +1,1 @@
+"""Asking a model that a server runs: an OpenAI-compatible endpoint, such as vLLM's."""
