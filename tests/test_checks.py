@@ -127,7 +127,10 @@ class TestRecipe:
         recipe = load_recipe(str(path), BUILT_IN)
         assert recipe.checks["sweep"] is False
         settle = recipe.checks["settle"]
-        assert settle == {"height": 0.02, "seconds": 3.0, "speed": 0.01, "tilt": 1.0, "sink": 0.005}
+        assert settle == {"height": 0.02, "seconds": 3.0, "speed": 0.01, "tilt": 1.0} | {
+            "sink": 0.005,
+            "stands": 5.0,
+        }
         (tmp_path / "provenance.json").write_text(json.dumps({"recipe": recipe.table()}))
         assert load_recipe(str(tmp_path / "provenance.json"), BUILT_IN) == recipe
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import cos, sqrt
+from math import atan2, cos, degrees, sqrt
 from pathlib import Path
 
 import pytest
@@ -86,6 +86,40 @@ class TestSettle:
         assert judged("settle", stiff).evidence["warnings"] > 0
         assert [path.name for path in tmp_path.iterdir()] == ["made"]
 
+    TAP = """<body name="base"><geom type="box" size="0.05 0.05 0.1"/>
+    <geom type="box" size="0.2 0.05 0.05" pos="0.25 0 0.15"/></body>"""
+
+    def test_what_cannot_stand_is_mounted_while_its_base_is_fixed(self, tmp_path: Path) -> None:
+        """Volumes of 0.002 at x = 0 and 0.004 m3 at 0.25: the centre at 0.1667, 0.1167 outside the base.
+
+        It is 0.2 m up: the one is at 0.1, the other at 0.25 above the floor, together at 0.2.
+        """
+        result = judged("settle", mjcf(tmp_path, self.TAP))
+        assert (result.passed, result.text) == (True, "does not stand by itself: keep its base fixed")
+        assert result.evidence["tilt"] > 10
+        assert result.evidence["stands"] == pytest.approx(degrees(atan2(-(0.5 / 3 - 0.05), 0.2)), abs=0.05)
+        floating = mjcf(tmp_path / "f", self.TAP.replace('"base">', '"base"><freejoint/>'))
+        assert not judged("settle", floating).passed
+        assert not judged("settle", floating, stands=0.0).passed
+
+    def test_how_badly_a_mounted_thing_stands_can_be_set(self, tmp_path: Path) -> None:
+        """A board on its edge: its centre is 1 cm inside the edge and 0.2 m up, 2.9 degrees."""
+        slim = """<body name="b"><geom type="box" size="0.01 0.2 0.2"/>
+        <inertial pos="0.05 0 0" mass="1" diaginertia="0.01 0.01 0.01"/></body>"""
+        subject = mjcf(tmp_path, slim)
+        assert judged("settle", subject).evidence["stands"] == pytest.approx(
+            degrees(atan2(0.01, 0.2)), abs=0.01
+        )
+        assert judged("settle", subject).passed
+        assert not judged("settle", subject, stands=2.0).passed
+
+    def test_what_would_stand_if_it_were_solid_is_not_mounted(self, tmp_path: Path) -> None:
+        heavy = '<inertial pos="0.5 0 0" mass="1" diaginertia="0.01 0.01 0.01"/>'
+        bodies = f'<body name="b"><geom type="box" size="0.1 0.1 0.1"/>{heavy}</body>'
+        result = judged("settle", mjcf(tmp_path, bodies))
+        assert not result.passed
+        assert result.evidence["stands"] == pytest.approx(45.0, abs=0.1)
+
     def test_thresholds(self) -> None:
         subject = Subject({}, cabinet())
         assert judged("settle", subject).passed
@@ -131,12 +165,35 @@ class TestPush:
         """1.92 kg, 0.2 m from the hinge: 3.77 N m when it is shut."""
         subject = mjcf(tmp_path, LID, 'damping="0.1"')
         assert judged("push", subject).passed
-        weak = judged("push", subject, torque=3.0)
+        weak = judged("push", subject, torque=3.0, person=8.0)  # 0.4 m from the axis: 3.2 N m
         assert weak.passed
         assert "0 joints open at a push" in weak.text
         assert "too heavy for it [N m | N]: hinge (3.8)" in weak.text
         stuck = judged("push", mjcf(tmp_path / "stuck", LID, f'frictionloss="9" {FIRM}'))
         assert not stuck.passed  # the push could lift it, were it not for friction
+
+    @pytest.mark.parametrize(("friction", "passes"), [(6.4, True), (6.8, False)])
+    def test_a_heavy_lid_is_lifted_by_what_its_weight_asks_for(
+        self, friction: float, passes: bool, tmp_path: Path
+    ) -> None:
+        """3.77 N m of weight: 1.5 times that lifts it and 1.25 times overcomes what holds it, 10.36 N m.
+
+        That is 6.59 N m more than its weight, and what friction beyond that holds is stuck.
+        """
+        result = judged("push", mjcf(tmp_path, LID, f'frictionloss="{friction}" damping="0.1" {FIRM}'))
+        assert result.passed == passes
+        row = result.evidence["joints"]["hinge"]
+        assert row["weight"] == pytest.approx(0.4 * 0.4 * 0.02 * 600 * GRAVITY * 0.2, rel=1e-3)
+        assert row["asked"] == pytest.approx(2.75 * row["weight"])
+        assert row["lifted"]
+
+    def test_what_falls_open_but_is_held_is_stuck(self, tmp_path: Path) -> None:
+        """Its weight is no excuse: it pulls the way that the joint opens."""
+        flap = LID.replace('axis="0 -1 0"', 'axis="0 1 0"').replace('pos="0 0 0.12"', 'pos="0.4 0 0.12"')
+        assert judged("push", mjcf(tmp_path, flap, 'damping="1"')).passed
+        stuck = judged("push", mjcf(tmp_path / "s", flap, f'frictionloss="90" {FIRM}'))
+        assert not stuck.passed
+        assert "does not open hinge" in stuck.text
 
     def test_a_limit_that_gives_way(self, tmp_path: Path) -> None:
         stops = 'damping="1" solreflimit="{} 1"'

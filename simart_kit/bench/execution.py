@@ -9,6 +9,7 @@ and how strong a motor would have to be is not judged.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -16,7 +17,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from ..arrays import FloatArray
-from .mujoco_driving import REACHED, Driver, one_axis_joints, opened_positions, rest_positions
+from .mujoco_driving import REACHED, Driver, one_axis_joints, rest_positions
 from .mujoco_loading import LoadError, load_model, one_line, quiet_mujoco
 
 if TYPE_CHECKING:
@@ -144,14 +145,17 @@ def _astray(model: mujoco.MjModel, data: mujoco.MjData, joint: int) -> str:
 
 
 def joint_travels(
-    model: mujoco.MjModel, seconds: float = TRAVEL_SECONDS, others_open: bool = False
+    model: mujoco.MjModel,
+    seconds: float = TRAVEL_SECONDS,
+    way: Callable[[int], FloatArray] | None = None,
 ) -> tuple[JointTravel, ...]:
     """Drive each hinge and slide to both ends of its range; the model is changed.
 
     Args:
         model: on a fixed base.
         seconds: for a whole range [s].
-        others_open: whether a joint that is held up may go with all others open, as a rack behind a door.
+        way: of a joint that is held up, (nq,) positions from which it may try again, the others being held
+            there: a rack behind a door, with the door open.
     """
     import mujoco
 
@@ -164,10 +168,10 @@ def joint_travels(
     chosen = np.linspace(0, len(moving) - 1, min(len(moving), MOST_JOINTS)).round().astype(int)
     driver = Driver(model, seconds)
     found = [_travel(model, driver, moving[index]) for index in chosen]
-    if others_open:
+    if way:
         for place, index in enumerate(chosen):
             if found[place].reason:
-                again = _travel(model, driver, moving[index], opened_positions(model, moving[index]))
+                again = _travel(model, driver, moving[index], way(moving[index]))
                 found[place] = found[place] if again.reason else again
     return tuple(found)
 

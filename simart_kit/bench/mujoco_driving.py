@@ -101,16 +101,6 @@ def rest_positions(model: mujoco.MjModel) -> FloatArray:
     return rest
 
 
-def opened_positions(model: mujoco.MjModel, joint: int) -> FloatArray:
-    """(nq,) positions with one joint at rest and the other limited hinges and slides far open."""
-    found = rest_positions(model)
-    for other in one_axis_joints(model):
-        address = model.jnt_qposadr[other]
-        if other != joint and model.jnt_limited[other]:
-            found[address] = max(model.jnt_range[other], key=lambda end: abs(end - found[address]))
-    return found
-
-
 def one_axis_joints(model: mujoco.MjModel) -> list[int]:
     """Indices of hinges and slides."""
     import mujoco

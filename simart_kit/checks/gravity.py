@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any
 from pydantic import Field
 
 from ..arrays import FloatArray
-from ..bench.mujoco_driving import opened_positions, rest_positions
+from ..bench.mujoco_driving import rest_positions
 from ..stages import Check
 from ..stages import Options as StageOptions
 from . import CheckResult
 from .names import joint_name
 from .subject import Subject
+from .ways import told
 
 if TYPE_CHECKING:
     import mujoco
@@ -34,21 +35,20 @@ class Gravity(Check):
     options: Options
 
     def check(self, subject: Subject) -> CheckResult:
-        """Each joint alone, the others at rest, or open where it does not hold so."""
+        """Each joint alone, the others at rest, or out of its way where it does not hold so."""
         from .simulation import ranges
 
         model = subject.simulation.model
-        spans = ranges(model)
-        rows = {
-            joint_name(model, joint): min(
-                (
-                    _held(model, joint, span, self.options.seconds, others)
-                    for others in (rest_positions(model), opened_positions(model, joint))
-                ),
-                key=lambda row: float(row["drift"]),
-            )
-            for joint, span in spans.items()
-        }
+        rows, waits = dict[str, dict[str, Any]](), dict[str, tuple[str, ...]]()
+        for joint, span in ranges(model).items():
+            name, way = joint_name(model, joint), None
+            rows[name] = _held(model, joint, span, self.options.seconds, rest_positions(model))
+            if not rows[name]["drift"] <= self.options.drift:
+                way = subject.simulation.ways.way(joint)
+            if way and way.opened:
+                held = _held(model, joint, span, self.options.seconds, way.positions)
+                if held["drift"] <= self.options.drift:
+                    rows[name], waits[name] = held, way.opened
         moved = {name: row for name, row in rows.items() if not row["drift"] <= self.options.drift}
         # Weight explains a fall only where it is more than dry friction can hold.
         wrong = [name for name, row in moved.items() if row["weight"] <= row["friction"]]
@@ -58,7 +58,7 @@ class Gravity(Check):
             text = "static: nothing can droop"
         if falls:
             text += f"; by its own weight falls: {', '.join(falls)}"
-        return CheckResult(self.name, not wrong, text, {"joints": rows})
+        return CheckResult(self.name, not wrong, text + told(waits), {"joints": rows, "waits": waits})
 
 
 def _held(

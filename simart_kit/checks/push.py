@@ -1,31 +1,39 @@
-"""Check `push`: a robot-sized push opens each joint, and its limit stops it."""
+"""Check `push`: a robot-sized push opens each joint, or a person lifts it, and its limit stops it."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from pydantic import Field
 
 from ..arrays import FloatArray, Vec3
-from ..bench.mujoco_driving import one_axis_joints, opened_positions, rest_positions
+from ..bench.mujoco_driving import one_axis_joints, rest_positions
 from ..stages import Check
 from ..stages import Options as StageOptions
 from . import CheckResult, Fault
 from .names import joint_name
 from .subject import Subject
+from .ways import Way, subtree, told
 
 if TYPE_CHECKING:
     import mujoco
 
+    from .simulation import Simulation
+
 _STOPS = 9  # where its weight is felt
 _FIRM = 1.25  # times what holds a joint: weight grows on its way
+_LIFT, _HOLD = 1.5, 1.25  # times its weight on the joint: to lift it, and to overcome friction that holds it
+
+_CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float64)
 
 
 class Push(Check):
     """Pushed to its farther limit from rest, each joint gets there and not beyond it.
 
-    What weighs more on its joint than the push can lift is listed: no arm of that size opens it.
+    What has to be lifted gets as much more as its weight asks for, up to what a person can, and is listed;
+    so is what is too heavy even then.
     """
 
     name = "push"
@@ -35,8 +43,13 @@ class Push(Check):
 
         torque: float = Field(default=5.0, gt=0, description="On hinges, at most [N*m].")
         force: float = Field(default=20.0, gt=0, description="On slides, at most [N].")
+        person: float = Field(
+            default=150.0,
+            ge=0,
+            description="On what has to be lifted: at the point farthest from its axis, at most [N].",
+        )
         acceleration: float = Field(
-            default=20.0,
+            default=15.0,
             gt=0,
             description="Nobody pushes a light knob with a door's force: beyond what holds it, a joint gets "
             "no more than what moves it so [rad/s^2 | m/s^2].",
@@ -50,12 +63,15 @@ class Push(Check):
     options: Options
 
     def check(self, subject: Subject) -> CheckResult:
-        """Each limited joint alone, the others at rest, or open where they hold it up."""
-        model = subject.simulation.model
-        joints = [j for j in one_axis_joints(model) if model.jnt_limited[j]]
-        rows = {joint_name(model, j): self._opened(model, j) for j in joints}
+        """Each limited joint alone, the others at rest, or out of its way where they hold it up."""
+        model, waits = subject.simulation.model, dict[str, tuple[str, ...]]()
+        rows: dict[str, dict[str, float]] = {}
+        for joint in (j for j in one_axis_joints(model) if model.jnt_limited[j]):
+            name = joint_name(model, joint)
+            rows[name], opened = self._opened(subject.simulation, joint)
+            waits |= {name: opened} if opened else {}
         shut = [n for n, row in rows.items() if not row["opened"] >= self.options.opens]
-        stuck = [n for n in shut if not rows[n]["weight"] > rows[n]["push"]]
+        stuck = [n for n in shut if not rows[n]["heavy"]]
         over = [n for n, row in rows.items() if not row["overshoot"] <= self.options.overshoot]
         texts = []
         if stuck:
@@ -64,25 +80,31 @@ class Push(Check):
         if over:
             listed = ", ".join(f"{n} by {rows[n]['overshoot']:.2g}" for n in over)
             texts.append(f"pushed over its limit: {listed}")
-        heavy = [f"{n} ({rows[n]['weight']:.2g})" for n in shut if n not in stuck]
-        sound = f"{len(rows) - len(heavy)} joints open at a push and stop at their limits"
-        sound += f"; too heavy for it [N m | N]: {', '.join(heavy)}" if heavy else ""
         fault = (
             Fault({stuck[0]: rows[stuck[0]]["reached"]}, _anchor(subject, stuck[0]), 0.0, "stuck")
             if stuck
             else None
         )
-        text = "; ".join(texts) or (sound if rows else "static: nothing to push")
-        return CheckResult(self.name, not texts, text, {"joints": rows}, fault)
+        text = "; ".join(texts) or _sound(rows, shut) + told(waits)
+        return CheckResult(self.name, not texts, text, {"joints": rows, "waits": waits}, fault)
 
-    def _opened(self, model: mujoco.MjModel, joint: int) -> dict[str, float]:
-        row = self._pushed(model, joint, rest_positions(model))
+    def _opened(self, simulation: Simulation, joint: int) -> tuple[dict[str, float], tuple[str, ...]]:
+        """What became of a joint, and which others are open for it."""
+        model = simulation.model
+        row = self._moved(model, joint, rest_positions(model))
         if row["opened"] >= self.options.opens:
-            return row
-        others_open = self._pushed(model, joint, opened_positions(model, joint))
-        return others_open if others_open["opened"] >= self.options.opens else row
+            return row, ()
+        way: Way = simulation.ways.way(joint)
+        again = self._moved(model, joint, way.positions) if way.opened else row
+        return (again, way.opened) if again["opened"] >= self.options.opens else (row, ())
 
-    def _pushed(self, model: mujoco.MjModel, joint: int, others: FloatArray) -> dict[str, float]:
+    def _moved(self, model: mujoco.MjModel, joint: int, others: FloatArray) -> dict[str, float]:
+        """What became of a joint at a push, or else at what its weight asks for."""
+        row = self._pushed(model, joint, others, 0.0)
+        enough = row["opened"] >= self.options.opens or not row["asked"] > row["push"]
+        return row if enough else self._pushed(model, joint, others, row["asked"])
+
+    def _pushed(self, model: mujoco.MjModel, joint: int, others: FloatArray, lift: float) -> dict[str, float]:
         import mujoco
 
         data, dof = mujoco.MjData(model), int(model.jnt_dofadr[joint])
@@ -93,8 +115,13 @@ class Push(Check):
         rest = float(data.qpos[address])
         sign = 1.0 if upper - rest >= rest - lower else -1.0
         limit = upper if sign > 0 else lower
-        weight = _weight(model, joint, others, (lower, upper))
-        data.qfrc_applied[dof] = sign * self._force(model, data, dof, hinge)
+        weight = float(np.abs(_pulls(model, joint, others, (lower, upper))).max())
+        uphill = max(0.0, float((sign * _pulls(model, joint, others, (rest, limit))).max()))
+        most_push = self.options.torque if hinge else self.options.force
+        person = self.options.person * (_reach(model, joint, others) if hinge else 1.0)
+        asked = _LIFT * uphill + _HOLD * weight
+        force = self._force(model, data, dof, uphill if lift else 0.0, max(most_push, lift))
+        data.qfrc_applied[dof] = sign * force
         most = rest
         for _ in range(round(self.options.seconds / model.opt.timestep / 10)):
             mujoco.mj_step(model, data, nstep=10)
@@ -103,31 +130,62 @@ class Push(Check):
         opened = (most - rest) / (limit - rest) if limit != rest else 1.0
         over = max(sign * (float(data.qpos[address]) - limit), 0.0)
         row = {"opened": min(opened, 1.0), "overshoot": over, "reached": most}
-        return row | {"push": abs(float(data.qfrc_applied[dof])), "weight": weight}
+        heavy, lifted = uphill > 0 and asked > max(most_push, person), force > most_push
+        row |= {"push": force, "weight": weight, "asked": min(person, asked)}
+        return row | {"heavy": heavy, "lifted": lifted}
 
-    def _force(self, model: mujoco.MjModel, data: mujoco.MjData, dof: int, hinge: bool) -> float:
+    def _force(
+        self, model: mujoco.MjModel, data: mujoco.MjData, dof: int, uphill: float, most: float
+    ) -> float:
         """The push on a joint at rest [N*m | N]."""
         import mujoco
 
         mujoco.mj_forward(model, data)
         inertia = np.zeros(model.nv)
         mujoco.mj_mulM(model, data, inertia, np.eye(model.nv)[dof])
-        holds = float(model.dof_frictionloss[dof]) + abs(float(data.qfrc_bias[dof]))
+        holds = float(model.dof_frictionloss[dof]) + max(abs(float(data.qfrc_bias[dof])), uphill)
         enough = _FIRM * holds + self.options.acceleration * float(inertia[dof])
-        return min(enough, self.options.torque if hinge else self.options.force)
+        return min(enough, most)
 
 
-def _weight(model: mujoco.MjModel, joint: int, others: FloatArray, span: tuple[float, float]) -> float:
-    """What gravity does to a joint at most on its way [N*m | N]."""
+def _sound(rows: Mapping[str, Mapping[str, float]], heavy: Sequence[str]) -> str:
+    """What there is to say of an object that passes, some joints of which are too heavy."""
+    if not rows:
+        return "static: nothing to push"
+    lifted = [f"{n} ({row['push']:.2g})" for n, row in rows.items() if row["lifted"] and n not in heavy]
+    text = f"{len(rows) - len(heavy)} joints open at a push and stop at their limits"
+    text += f"; lifted with more [N m | N]: {', '.join(lifted)}" if lifted else ""
+    weights = [f"{name} ({rows[name]['weight']:.2g})" for name in heavy]
+    return text + (f"; too heavy for it [N m | N]: {', '.join(weights)}" if weights else "")
+
+
+def _pulls(model: mujoco.MjModel, joint: int, others: FloatArray, span: tuple[float, float]) -> FloatArray:
+    """(_STOPS,) what holds a joint against gravity on its way [N*m | N]."""
     import mujoco
 
-    data, dof, found = mujoco.MjData(model), int(model.jnt_dofadr[joint]), [0.0]
+    data, dof, found = mujoco.MjData(model), int(model.jnt_dofadr[joint]), list[float]()
     for position in np.linspace(*span, _STOPS):
         data.qpos[:] = others
         data.qpos[model.jnt_qposadr[joint]] = position
         mujoco.mj_forward(model, data)
-        found.append(abs(float(data.qfrc_bias[dof])))
-    return max(found)
+        found.append(float(data.qfrc_bias[dof]))
+    return np.array(found)
+
+
+def _reach(model: mujoco.MjModel, joint: int, others: FloatArray) -> float:
+    """How far what a hinge moves reaches from its axis [m]."""
+    import mujoco
+
+    data, body, farthest = mujoco.MjData(model), int(model.jnt_bodyid[joint]), 0.0
+    data.qpos[:] = others
+    mujoco.mj_kinematics(model, data)
+    inside = subtree(model, body)
+    for geom in (g for g in range(model.ngeom) if inside[int(model.geom_bodyid[g])]):
+        middle, half = model.geom_aabb[geom].reshape(2, 3)
+        corners = middle + half * _CORNERS
+        away = corners @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom] - data.xanchor[joint]
+        farthest = max(farthest, float(np.linalg.norm(np.cross(away, data.xaxis[joint]), axis=1).max()))
+    return farthest
 
 
 def _anchor(subject: Subject, name: str) -> Vec3:

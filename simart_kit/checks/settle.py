@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from pydantic import Field
 
+from ..hulls import hull_of
+from ..moments import solid_moments
 from ..stages import Check
 from ..stages import Options as StageOptions
 from . import CheckResult
@@ -17,9 +19,16 @@ if TYPE_CHECKING:
 
     from ..arrays import FloatArray
 
+_DIRECTIONS = 360  # in which a shape may tip over
+_UNKNOWN = 90.0  # slope of what has no shapes [degrees]: it is judged by its drop
+
 
 class Settle(Check):
-    """Dropped from 2 cm it rests after three seconds, upright, on the floor, and nothing broke."""
+    """Dropped from 2 cm it rests after three seconds, upright, on the floor, and nothing broke.
+
+    What could not stand if it were solid all through is mounted somewhere, as a tap is: while its base is
+    fixed, it need not.
+    """
 
     name = "settle"
 
@@ -31,6 +40,11 @@ class Settle(Check):
         speed: float = Field(default=1e-3, gt=0, description="Of the base at rest, at most [m/s].")
         tilt: float = Field(default=1.0, gt=0, description="Of the base, at most [degrees].")
         sink: float = Field(default=0.005, gt=0, description="Lower or higher than it stood, at most [m].")
+        stands: float = Field(
+            default=5.0,
+            ge=0,
+            description="A shape that tips over by itself, or when tilted by so much, is mounted [degrees].",
+        )
 
     options: Options
 
@@ -49,6 +63,10 @@ class Settle(Check):
             ),
         }
         wrong = [text for text, is_wrong in bad.items() if is_wrong]
+        slope = _slope(subject, self.options.sink)
+        found["stands"] = slope
+        if wrong and slope < self.options.stands and not (found["warnings"] or _floats(subject)):
+            return CheckResult(self.name, True, "does not stand by itself: keep its base fixed", found)
         sound = f"at rest {self.options.seconds:g} s after a drop from {self.options.height * 100:g} cm"
         return CheckResult(self.name, not wrong, "; ".join(wrong) or sound, found)
 
@@ -69,6 +87,43 @@ def _drop(model: mujoco.MjModel, options: Settle.Options) -> dict[str, float]:
         "sink": then - options.height - height,
         "warnings": float(data.warning.number.sum()),
     }
+
+
+def _floats(subject: Subject) -> bool:
+    """Whether its base is free in use, as an asset or an MJCF file says; others leave it open."""
+    import mujoco
+
+    if subject.asset is not None:
+        return subject.asset.floating
+    file = subject.simulated.get("mjcf")
+    if file is None or file.suffix.lower() != ".xml":
+        return False
+    free = mujoco.mjtJoint.mjJNT_FREE
+    return any(joint.type == free for joint in mujoco.MjSpec.from_file(str(file)).joints)
+
+
+def _slope(subject: Subject, near: float) -> float:
+    """Slope on which its collision shapes would tip over at rest, all of one density [degrees].
+
+    Args:
+        subject: 90 where a body has no shapes.
+        near: how far above the lowest points others are feet as well [m].
+    """
+    mechanism = subject.simulation.mechanism
+    if not all(body.colliders for body in mechanism.bodies if body.mass and body.mass.mass > 0):
+        return _UNKNOWN
+    shapes = [points for body in mechanism.bodies for points in body.colliders]
+    hulls = [hull for hull in map(hull_of, shapes) if hull]
+    if not hulls:
+        return _UNKNOWN
+    moments = sum((solid_moments(hull.vertices[hull.faces]).sum(axis=0) for hull in hulls), np.zeros((4, 4)))
+    center, points = moments[:3, 3] / moments[3, 3], np.concatenate(shapes)
+    feet = points[points[:, 2] <= mechanism.bounds[0, 2] + near]
+    angles = np.linspace(0, 2 * np.pi, _DIRECTIONS, endpoint=False)
+    ways = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    # How far the centre is inside the feet's hull: where it is nearest to the hull's edge.
+    inside = float(((feet[:, :2] - center[:2]) @ ways.T).max(axis=0).min())
+    return float(np.degrees(np.arctan2(inside, center[2] - mechanism.bounds[0, 2])))
 
 
 def _free_joints(model: mujoco.MjModel) -> list[int]:

@@ -13,11 +13,15 @@ from ..bench.mujoco_driving import one_axis_joints, rest_positions
 from .mechanism import Mechanism
 from .names import body_name
 from .reading import compiled_spec, read_spec
+from .ways import Ways
 
 if TYPE_CHECKING:
     import mujoco
 
     from ..arrays import FloatArray
+
+# How deep a joint may go into what stays and yet open for another: [m], and a share of the diagonal.
+_GRAZE, _GRAZE_SHARE = 0.002, 0.005
 
 
 @dataclass(frozen=True)
@@ -66,6 +70,11 @@ class Simulation:
     def model(self) -> mujoco.MjModel:
         """The object on a fixed base, with what the file excludes from contact; not to be changed."""
         return self.fresh()
+
+    @cached_property
+    def ways(self) -> Ways:
+        """What each joint needs out of its way, with what the file excludes in nobody's way."""
+        return Ways(self.model, max(_GRAZE, _GRAZE_SHARE * self.mechanism.diagonal))
 
     def unfiltered(self) -> mujoco.MjModel:
         """The same with contact between all bodies that are not rigidly connected."""

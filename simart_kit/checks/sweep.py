@@ -8,19 +8,20 @@ import numpy as np
 from pydantic import Field
 
 from ..arrays import FloatArray
-from ..bench.mujoco_driving import opened_positions, rest_positions
+from ..bench.mujoco_driving import rest_positions
 from ..stages import Check
 from ..stages import Options as StageOptions
 from . import CheckResult, Fault
-from .names import joint_name
+from .names import body_name, joint_name
 from .subject import Subject
+from .ways import Ways, told
 
 if TYPE_CHECKING:
     import mujoco
 
 
 class JointSweep(Check):
-    """Each joint goes through its limits, the others at rest or open; what the file excludes is listed."""
+    """Each joint goes its range, others at rest or out of its way; what the file excludes is listed."""
 
     name = "sweep"
 
@@ -42,8 +43,14 @@ class JointSweep(Check):
         allowed = max(self.options.depth, self.options.share * simulation.mechanism.diagonal)
         swept = ranges(model)
         excluded = {" in ".join(sorted(pair)) for pair in simulation.mechanism.excluded}
-        faults = [f for j, span in swept.items() for f in self._deep(model, j, span, allowed, excluded)]
+        faults, waits = list[Fault](), dict[str, tuple[str, ...]]()
+        for joint, span in swept.items():
+            met, opened = self._deep(model, joint, span, allowed, excluded, simulation.ways)
+            faults += met
+            waits |= {joint_name(model, joint): opened} if opened else {}
         deep = sorted(faults, key=lambda f: (-f.depth, f.text))
+        if any(fault.text not in excluded for fault in deep):
+            excluded |= _passing(subject)
         wrong = [f for f in deep if f.text not in excluded]
         rows = [
             {"joint": joint, "position": round(value, 6), "pair": f.text, "depth": round(f.depth, 6)}
@@ -53,8 +60,14 @@ class JointSweep(Check):
         return CheckResult(
             self.name,
             not wrong,
-            _text(wrong, len({f.text for f in deep} & excluded), len(swept)),
-            {"joints": len(swept), "allowed": allowed, "deep": rows, "excluded": sorted(excluded)},
+            _text(wrong, len({f.text for f in deep} & excluded), len(swept)) + told(waits),
+            {
+                "joints": len(swept),
+                "allowed": allowed,
+                "deep": rows,
+                "excluded": sorted(excluded),
+                "waits": waits,
+            },
             wrong[0] if wrong else None,
         )
 
@@ -65,15 +78,32 @@ class JointSweep(Check):
         span: tuple[float, float],
         allowed: float,
         excluded: set[str],
-    ) -> list[Fault]:
-        """Faults with the others at rest, or with them open where there are fewer: racks are behind doors."""
+        ways: Ways,
+    ) -> tuple[list[Fault], tuple[str, ...]]:
+        """Faults with the others at rest, or none with those open that are named: racks are behind doors."""
         places = np.linspace(*span, self.options.steps)
-        found = []
-        for others in (rest_positions(model), opened_positions(model, joint)):
-            found.append([f for f in _faults(model, joint, places, others) if f.depth > allowed])
-            if all(fault.text in excluded for fault in found[-1]):
-                return found[-1]
-        return found[0]
+        at_rest = [f for f in _faults(model, joint, places, rest_positions(model)) if f.depth > allowed]
+        if all(fault.text in excluded for fault in at_rest):
+            return at_rest, ()
+        way = ways.way(joint)
+        found = [f for f in _faults(model, joint, places, way.positions) if f.depth > allowed]
+        return (found, way.opened) if all(fault.text in excluded for fault in found) else (at_rest, ())
+
+
+def _passing(subject: Subject) -> set[str]:
+    """Pairs of an asset that its file need not exclude on their joint's way: MuJoCo lets them pass unasked.
+
+    These are a part and the one that it moves on, unless that one is fixed to the world.
+    """
+    from ..separation import overlaps_on_the_way
+
+    if subject.asset is None:
+        return set()
+    model = subject.simulation.model
+    moved = {body_name(model, body) for body in range(model.nbody) if model.body_weldid[body]}
+    jointed = {frozenset((j.parent, j.child)) for j in subject.asset.joints if j.parent in moved}
+    met = ((found.one, found.other) for found in overlaps_on_the_way(subject.asset))
+    return {" in ".join(sorted(pair)) for pair in met if frozenset(pair) in jointed}
 
 
 def _faults(model: mujoco.MjModel, joint: int, places: FloatArray, others: FloatArray) -> list[Fault]:

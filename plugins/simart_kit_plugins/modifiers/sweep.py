@@ -10,7 +10,6 @@ from pydantic import Field
 
 import simart_kit
 from simart_kit import Modifier, hookimpl
-from simart_kit.kinematics import carried
 
 if TYPE_CHECKING:
     from simart_kit import Asset, Joint
@@ -18,9 +17,13 @@ if TYPE_CHECKING:
 
 
 class Sweep(Modifier):
-    """Shortens limits to what is free, so that no part goes through another; flags a joint that is stuck."""
+    """Shortens limits to what is free, so that no part goes through another; flags a joint that is stuck.
+
+    What its own joint takes out of the way is no obstacle: a rack keeps its range behind a door, and a note.
+    """
 
     name = "sweep"
+    corrects_joints = True
 
     class Options(simart_kit.Options):
         """How finely to look."""
@@ -37,36 +40,35 @@ class Sweep(Modifier):
 
     def modify(self, asset: Asset) -> Asset:
         """The asset with limits that surfaces allow; notes tell each change, warnings each stuck joint."""
+        from simart_kit.waiting import free_ranges, sinks
+
         changed: dict[str, Joint] = {}
-        shortened, stuck = [], []
-        for joint in asset.joints:
-            if joint.limits is None:
-                continue
-            lower, upper = self._free(asset, joint)
+        told, stuck = [], []
+        for name, free in free_ranges(asset, self.options.steps, self.seed).items():
+            joint = asset.joint(name)
+            assert joint.limits is not None
             wanted = joint.limits.upper - joint.limits.lower
             before = _range(joint, joint.limits.lower, joint.limits.upper)
-            free = replace(joint, limits=simart_kit.Limits(lower, upper))
-            if upper - lower < self.options.least * wanted:
-                told = f"blocked after {_amount(joint, max(upper, -lower))} of {before}"
-                changed[joint.name] = replace(free, flags=(*joint.flags, f"sweep: {told}"))
-                stuck.append(f"{joint.name} is {told}: its axis may be wrong, look at it")
-            elif free.limits != joint.limits:
-                changed[joint.name] = free
-                shortened.append(f"{joint.name}: {before} shortened to {_range(joint, lower, upper)}")
+            short = replace(joint, limits=simart_kit.Limits(free.lower, free.upper))
+            stops = free.travel < self.options.least * wanted
+            if stops and sinks(asset, joint, self.options.steps, self.seed):
+                told.append(f"{joint.child}: sinks into {joint.parent}, which has no hole for it")
+                continue
+            if stops:
+                blocked = f"blocked after {_amount(joint, max(free.upper, -free.lower))} of {before}"
+                changed[name] = replace(short, flags=(*joint.flags, f"sweep: {blocked}"))
+                stuck.append(f"{name} is {blocked}: its axis may be wrong, look at it")
+                continue
+            if short.limits != joint.limits:
+                changed[name] = short
+                told.append(f"{name}: {before} shortened to {_range(joint, free.lower, free.upper)}")
+            if free.opened:
+                waits = f"only when {' and '.join(asset.joint(o).child for o in free.opened)} is open"
+                changed[name] = replace(short, evidence=(*joint.evidence, waits))
+                told.append(f"{joint.child}: {waits}")
         return (
-            asset.with_joints(changed)
-            .with_notes("sweep", "info", shortened)
-            .with_notes("sweep", "warning", stuck)
+            asset.with_joints(changed).with_notes("sweep", "info", told).with_notes("sweep", "warning", stuck)
         )
-
-    def _free(self, asset: Asset, joint: Joint) -> tuple[float, float]:
-        """Free range within the joint's limits [rad | m]."""
-        from simart_kit import sweeping
-
-        moving = np.isin(asset.face_part, [asset.part_index(name) for name in carried(asset, joint.child)])
-        mesh = asset.mesh
-        sweep = sweeping.Sweep(mesh.vertices, mesh.faces[moving], mesh.faces[~moving], self.seed)
-        return sweeping.free_range(joint, sweep, self.options.steps)
 
 
 def _range(joint: Joint, lower: float, upper: float) -> str:

@@ -1,0 +1,156 @@
+"""How far each joint of an object is free to go, some once others are open: a rack waits for its door."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .arrays import BoolArray
+from .asset import Asset, Joint
+from .kinematics import carried, rest_to_posed
+from .sweeping import Sweep, free_range, move
+
+_ENOUGH = 0.5  # of the wanted travel: what comes so far waits for nothing, and waiting has to yield it
+_SMALL = 0.1  # of the object's diagonal: buttons, keys and switches
+
+
+@dataclass(frozen=True)
+class FreeRange:
+    """How far a joint can go before surfaces meet.
+
+    Attributes:
+        lower: lowest position [rad | m].
+        upper: highest position [rad | m].
+        opened: positions of the joints that have to be open for it, by name; none where it goes by itself.
+    """
+
+    lower: float
+    upper: float
+    opened: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def travel(self) -> float:
+        """From end to end [rad | m]."""
+        return self.upper - self.lower
+
+
+def free_ranges(asset: Asset, steps: int, seed: int) -> dict[str, FreeRange]:
+    """The free range of each limited joint, by name, within its limits.
+
+    What is in the way of a joint that hardly moves is no obstacle if its own joint can take it out of there.
+    It is then as far from rest as it goes, and so is what it waits for itself. Two that wait for each other
+    stay blocked.
+
+    Args:
+        asset: at rest.
+        steps: stops on the way to each limit.
+        seed: of the sampling.
+    """
+    limited = [joint for joint in asset.joints if joint.limits is not None]
+    none = np.zeros(len(asset.face_part), dtype=bool)
+    found = {joint.name: _swept(asset, joint, {}, none, steps, seed) for joint in limited}
+    held = [joint for joint in limited if found[joint.name].travel < _ENOUGH * _wanted(joint)]
+    for _ in held:
+        better = {joint.name: _waited(asset, joint, found, steps, seed) for joint in held}
+        if better == {joint.name: found[joint.name] for joint in held}:
+            break
+        # One at a time: what has just found out that it waits for another must not be waited for by that one.
+        first = next(name for name, free in better.items() if free != found[name])
+        found[first] = better[first]
+        held = [joint for joint in held if joint.name != first]
+    return found
+
+
+def sinks(asset: Asset, joint: Joint, steps: int, seed: int) -> bool:
+    """Whether a joint presses something small into the part that carries it, as a button without a hole.
+
+    It slides by less than its own length along its axis, is small beside the object, and nothing else is in
+    its way.
+
+    Args:
+        asset: at rest.
+        joint: with limits.
+        steps: stops on the way to each limit.
+        seed: of the sampling.
+    """
+    if joint.kind != "prismatic":
+        return False
+    mesh, moving = asset.mesh, _faces(asset, joint.child)
+    points = mesh.vertices[mesh.faces[moving]].reshape(-1, 3)
+    along, size = np.ptp(points @ np.array(joint.axis)), np.linalg.norm(np.ptp(points, axis=0))
+    if _wanted(joint) > along or size > _SMALL * mesh.diagonal:
+        return False
+    carrier = asset.face_part == asset.part_index(joint.parent)
+    return _swept(asset, joint, {}, carrier, steps, seed).travel == _wanted(joint)
+
+
+def _waited(asset: Asset, joint: Joint, found: Mapping[str, FreeRange], steps: int, seed: int) -> FreeRange:
+    """The range of a joint once what can go out of its way is; as found where that is no more."""
+    alone = found[joint.name]
+    others = {name: _faces(asset, asset.joint(name).child) for name in _openable(asset, joint, found)}
+    gone = np.any([np.zeros(len(asset.face_part), dtype=bool), *others.values()], axis=0)
+    most = _swept(asset, joint, {}, gone, steps, seed)
+    least = _ENOUGH * _wanted(joint)
+    if not others or most.travel < least:
+        return alone
+    mine = _faces(asset, joint.child)
+    blockers = [
+        name
+        for name, faces in others.items()
+        if _swept(asset, joint, {}, ~(faces | mine), steps, seed).travel < most.travel
+    ]
+    opened: dict[str, float] = {}
+    for name in blockers:
+        free = found[name]
+        opened |= {**free.opened, name: max(free.lower, free.upper, key=abs)}
+    waited = _swept(asset, joint, opened, np.zeros_like(gone), steps, seed)
+    return FreeRange(waited.lower, waited.upper, opened) if waited.travel >= least else alone
+
+
+def _openable(asset: Asset, joint: Joint, found: Mapping[str, FreeRange]) -> list[str]:
+    """Names of the joints that could make way: they do not carry this one, hang on it or wait for it."""
+    mine = carried(asset, joint.child)
+    return [
+        name
+        for name, free in found.items()
+        if asset.joint(name).child not in mine
+        and joint.child not in carried(asset, asset.joint(name).child)
+        and joint.name not in free.opened
+        and free.travel > 0
+    ]
+
+
+def _swept(
+    asset: Asset, joint: Joint, opened: Mapping[str, float], without: BoolArray, steps: int, seed: int
+) -> FreeRange:
+    """The free range of a joint with others open and (F,) faces left out."""
+    mesh, moving = asset.mesh, _faces(asset, joint.child)
+    vertices, faces = mesh.vertices, mesh.faces
+    if opened:
+        posed = rest_to_posed(asset, opened)
+        places, faces = [vertices], faces.copy()
+        for name in _moved(asset, opened):
+            part = asset.face_part == asset.part_index(name)
+            faces[part] += len(vertices) * len(places)
+            places.append(move(posed[name], vertices))
+        vertices = np.concatenate(places)
+    sweep = Sweep(vertices, faces[moving], faces[~(moving | without)], seed)
+    return FreeRange(*free_range(joint, sweep, steps))
+
+
+def _moved(asset: Asset, opened: Collection[str]) -> list[str]:
+    """Names of the parts that move when joints are opened, in the asset's order."""
+    names = set().union(*(carried(asset, asset.joint(name).child) for name in opened))
+    return [part.name for part in asset.parts if part.name in names]
+
+
+def _faces(asset: Asset, part: str) -> BoolArray:
+    """(F,) faces of a part and of what it carries."""
+    return np.isin(asset.face_part, [asset.part_index(name) for name in carried(asset, part)])
+
+
+def _wanted(joint: Joint) -> float:
+    assert joint.limits is not None
+    return joint.limits.upper - joint.limits.lower
