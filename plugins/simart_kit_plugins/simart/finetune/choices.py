@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from torch import Tensor, device
 
 NO_CELL = -1
+_ROWS = 256
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,16 +118,25 @@ def losses(
         (N,) float32 losses [nats] and (N,) bool.
     """
     import torch
-    from torch.nn.functional import cross_entropy, linear
+    from torch.nn.functional import cross_entropy
 
     each = torch.zeros(len(targets), device=hidden.device)
     right = torch.zeros_like(targets, dtype=torch.bool)
     cell, code = kinds == COORDINATE, kinds == CODE
     for chosen, within in ((cell, rows.coordinates), (code, rows.codes), (~(cell | code), rows.words)):
-        scores = linear(hidden[chosen], head[within]).float()
+        scores = _scores(hidden[chosen], head[within])
         if within is rows.coordinates:
             scores = scores.masked_fill(~allowed, float("-inf"))
         wanted = targets[chosen] - within.start
         each = each.masked_scatter(chosen, cross_entropy(scores, wanted, reduction="none"))
         right[chosen] = scores.detach().argmax(dim=-1) == wanted
     return each, right
+
+
+def _scores(hidden: Tensor, head: Tensor) -> Tensor:
+    """(N, V) float32; the rows are filled up, for kernels are made anew for each number of them."""
+    from torch.nn.functional import linear, pad
+
+    count = len(hidden)
+    filled = pad(hidden, (0, 0, 0, -count % _ROWS))
+    return linear(filled, head)[:count].float()
