@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from simart_kit.errors import BadInputError
 
+from ...vlm.chat import picture_piece, text_message
 from ..prompt.values import Prompt
 from .client import Message, chat, quoted
 from .values import Endpoint, EndpointError
@@ -70,19 +70,14 @@ def ask(
 
 def prompt_messages(prompt: Prompt) -> list[Message]:
     """A prompt in OpenAI's form: picture, then voxels and question, as the model was trained to read them."""
-    from ..prompt.picture import png
-
-    content: list[Message] = []
-    if prompt.picture is not None:
-        data = base64.b64encode(png(prompt.picture)).decode()
-        content.append({"type": "image_url", "image_url": {"url": f"data:image/png;base64,{data}"}})
+    content = [] if prompt.picture is None else [picture_piece(prompt.picture)]
     content.append({"type": "text", "text": prompt.voxels.atoms() + prompt.question})
-    system = [{"role": "system", "content": prompt.system}] if prompt.system else []
+    system = [text_message("system", prompt.system)] if prompt.system else []
     return [*system, {"role": "user", "content": content}]
 
 
 def _again(said: str, mistake: str) -> Sequence[Message]:
     return (
-        {"role": "assistant", "content": said[:_SHOWN]},
-        {"role": "user", "content": f"That answer cannot be read: {mistake}. Give the whole answer, right."},
+        text_message("assistant", said[:_SHOWN]),
+        text_message("user", f"That answer cannot be read: {mistake}. Give the whole answer, right."),
     )
