@@ -56,3 +56,4 @@ def register_commands(register: RegisterCommand) -> None:
         f"{_COMMANDS}.bench_vqvae:bench_vqvae",
         "Compare configurations of the sparse 3D VQ-VAE.",
     )
+    register("bench mllm", f"{_COMMANDS}.bench_mllm:bench_mllm", "Compare forms of voxel sequences.")

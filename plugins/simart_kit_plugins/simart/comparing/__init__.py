@@ -1,0 +1,1 @@
+"""The ablation of the language model: forms of voxel sequences, trained and judged alike."""
