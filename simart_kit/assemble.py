@@ -131,4 +131,10 @@ def assemble(
 
 def _part(guess: PartGuess) -> Part:
     material = MATERIALS.get(guess.material, MATERIALS[DEFAULT_MATERIAL])
-    return Part(guess.name, label=guess.label, description=guess.description, material=material)
+    return Part(
+        guess.name,
+        label=guess.label,
+        description=guess.description,
+        material=material,
+        stated_mass=guess.mass,
+    )

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
-from .arrays import FloatArray, IntArray, Mat3, Vec3, frozen_floats, frozen_ints
+from .arrays import FloatArray, IntArray, Mat3, Vec3, frozen_floats, frozen_ints, unit, vec3
 from .errors import BadInputError
 from .mesh import Mesh, Note
 from .primitives import Primitive
@@ -110,6 +110,20 @@ class Joint:
     def turns(self) -> bool:
         """Whether its position is an angle about `axis`."""
         return self.kind in ("revolute", "continuous")
+
+    def transformed(self, new_from_old: FloatArray) -> Joint:
+        """The joint in another frame, by a (4, 4) similarity without mirroring; travel of a slide scales."""
+        linear, shift = new_from_old[:3, :3], new_from_old[:3, 3]
+        scale = float(np.linalg.det(linear)) ** (1 / 3)
+        limits = self.limits
+        if limits and self.kind == "prismatic":
+            limits = Limits(limits.lower * scale, limits.upper * scale)
+        return replace(
+            self,
+            origin=vec3(linear @ np.array(self.origin) + shift),
+            axis=vec3(unit(linear @ np.array(self.axis))),
+            limits=limits,
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from .mesh import Mesh
     from .report import Report
     from .runner import Run
-    from .stages import Check, Exporter, JointPredictor, Modifier, Segmenter
+    from .stages import Check, Exporter, JointPredictor, Modifier, Segmentation, Segmenter
 
 hookspec = pluggy.HookspecMarker("simart_kit")
 hookimpl = pluggy.HookimplMarker("simart_kit")
@@ -86,8 +86,11 @@ def diagnose() -> Iterable[Finding] | None:
 
 
 @hookspec(firstresult=True)
-def load_mesh(path: Path) -> Mesh | None:
+def load_mesh(path: Path) -> Mesh | Segmentation | None:
     """Read a file into a Mesh in the file's own frame; None when the format is not yours.
+
+    A file that states its parts and joints, as a robot description does, is read into a Segmentation with
+    `mesh` and `joints`, both in the file's own frame: these are taken, whatever segmenter the recipe names.
 
     Raise BadInputError when the format is yours and the file is broken.
     """

@@ -7,11 +7,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from .arrays import FloatArray
+from .assemble import checked
 from .errors import BadInputError, PluginError, SimartKitError
 from .mesh import Mesh, Note, UpAxis, canonical
 from .normals import with_normals
 from .plugins import Plugins
 from .provenance import file_hash
+from .stages import Segmentation
 
 UNITS = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254, "ft": 0.3048}
 # Sizes beyond these are damage or a joke; single precision loses the shape.
@@ -26,11 +28,13 @@ class Source:
         mesh: in the canonical frame, in the metres that the file claims.
         asset_from_source: (4, 4) maps the file's coordinates to the mesh's.
         sha256: of the file.
+        stated: parts and joints of `mesh`, where the file states them.
     """
 
     mesh: Mesh
     asset_from_source: FloatArray
     sha256: str
+    stated: Segmentation | None = None
 
 
 def source_path(source: str | Path) -> Path:
@@ -58,7 +62,10 @@ def read_source(
     metres_per_unit = metres(unit)
     if path.stat().st_size == 0:
         raise BadInputError(f"{path} is empty (0 bytes)")
-    mesh = _loaded(path, plugins)
+    loaded = _loaded(path, plugins)
+    mesh = loaded.mesh if isinstance(loaded, Segmentation) else loaded
+    if mesh is None or (isinstance(loaded, Segmentation) and loaded.joints is None):
+        raise PluginError(f"{path}: a loader plugin returned a Segmentation without its mesh and joints")
     placed, asset_from_source = canonical(mesh, up, metres_per_unit)
     if not _SMALLEST < placed.diagonal < _LARGEST or not float(placed.face_areas.sum()) > 0:
         raise BadInputError(
@@ -67,10 +74,23 @@ def read_source(
         )
     decided = Note("load", "info", _frame_text(mesh, up, unit))
     placed = with_normals(placed)  # once, for every stage that draws or exports
-    return Source(replace(placed, notes=(*mesh.notes, decided)), asset_from_source, file_hash(path))
+    placed = replace(placed, notes=(*mesh.notes, decided))
+    stated = _stated(path, loaded, placed, asset_from_source) if isinstance(loaded, Segmentation) else None
+    return Source(placed, asset_from_source, file_hash(path), stated)
 
 
-def _loaded(path: Path, plugins: Plugins) -> Mesh:
+def _stated(path: Path, loaded: Segmentation, placed: Mesh, asset_from_source: FloatArray) -> Segmentation:
+    """What a file states of its own mesh, as of the mesh in the canonical frame."""
+    joints = tuple(joint.transformed(asset_from_source) for joint in loaded.joints or ())
+    told = "parts and joints as the file states them: the recipe's segmenter and joint predictor are not used"
+    notes = (Note("load", "info", told), *loaded.notes)
+    try:
+        return checked(replace(loaded, mesh=None, joints=joints, notes=notes), placed)
+    except ValueError as error:
+        raise PluginError(f"{path}: a loader plugin's Segmentation: {error}") from error
+
+
+def _loaded(path: Path, plugins: Plugins) -> Mesh | Segmentation:
     try:
         mesh = plugins.manager.hook.load_mesh(path=path)
     except SimartKitError:
@@ -80,9 +100,9 @@ def _loaded(path: Path, plugins: Plugins) -> Mesh:
     if mesh is None:
         raise BadInputError(
             f"{path}: no plugin reads '{path.suffix or path.name}' files; "
-            "known are glb, gltf, obj, ply, stl, off, dae, 3mf, usd, usda, usdc, usdz"
+            "known are glb, gltf, obj, ply, stl, off, dae, 3mf, usd, usda, usdc, usdz, urdf"
         )
-    if not isinstance(mesh, Mesh):
+    if not isinstance(mesh, Mesh | Segmentation):
         raise PluginError(f"{path}: a loader plugin returned {type(mesh).__name__}, not a Mesh")
     return mesh
 

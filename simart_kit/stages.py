@@ -60,6 +60,7 @@ class PartGuess:
         material: key of the material table (`simart_kit.physics.MATERIALS`).
         score: 0..1.
         description: for people.
+        mass: what a file or a person says that it weighs [kg], above 0; None where nobody does.
     """
 
     name: str
@@ -67,6 +68,7 @@ class PartGuess:
     material: str = "wood"
     score: float = 1.0
     description: str = ""
+    mass: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,9 +130,15 @@ class JointPredictor(Stage):
 
 
 class Modifier(Stage):
-    """A small step from Asset to Asset."""
+    """A small step from Asset to Asset.
+
+    Attributes:
+        corrects_joints: whether it corrects how joints move, which predictors only guess; it is left out
+            where the source file states its joints.
+    """
 
     kind = "modifier"
+    corrects_joints: ClassVar[bool] = False
 
     @abstractmethod
     def modify(self, asset: Asset) -> Asset:

@@ -86,7 +86,7 @@ def _separate(truth: Articulation, prediction: Articulation, points: int, least:
         own = sampled(value, value.labels, points, least, seed)
         among = sampled(other, other.labels, _DENSER * points, _DENSER * least, seed + 1)
         clouds.append(own.cloud)
-        labels.append(_labels_there(own, among, size))
+        labels.append(labels_there(own, among, size))
     one, two = clouds
     weights = [one.weights / one.weights.sum(), two.weights / two.weights.sum()]
     return Overlay(
@@ -99,11 +99,16 @@ def _separate(truth: Articulation, prediction: Articulation, points: int, least:
     )
 
 
-def _labels_there(own: Samples, among: Samples, size: float) -> IntArray:
+def labels_there(own: Samples, among: Samples, size: float) -> IntArray:
     """(N,) label of the other surface at each point of one's own; -1 where there is none.
 
     The nearest sample may be on the far side of a thin gap, so where samples of several parts are near, their
     triangles are measured. Where parts touch, the one is meant that faces the way of the point's own surface.
+
+    Args:
+        own: points to be labelled.
+        among: points of the other surface with their labels.
+        size: longest side of the object.
     """
     from scipy.spatial import cKDTree
 
@@ -118,15 +123,13 @@ def _labels_there(own: Samples, among: Samples, size: float) -> IntArray:
         unsure = np.flatnonzero((labels != labels[:, :1]).any(axis=1))
         choice, ways = near[unsure], sign[labels[unsure] + 1, None] * among.normals[near[unsure]]
         turned = ((own.normals[unsure, None] - ways) ** 2).sum(axis=2)
-        cost = (
-            _gaps(own.cloud.points[unsure], among.triangles[choice]) ** 2 + (_TOUCHING * size) ** 2 * turned
-        )
+        cost = gaps(own.cloud.points[unsure], among.triangles[choice]) ** 2 + (_TOUCHING * size) ** 2 * turned
         found[unsure] = labels[unsure, cost.argmin(axis=1)]
     found[distance[:, 0] > _NO_SURFACE * size] = -1
     return found
 
 
-def _gaps(points: FloatArray, triangles: FloatArray) -> FloatArray:
+def gaps(points: FloatArray, triangles: FloatArray) -> FloatArray:
     """(N, K) distances of (N, 3) points to (N, K, 3, 3) triangles."""
     from trimesh.triangles import closest_point
 

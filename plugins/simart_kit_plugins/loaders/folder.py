@@ -16,6 +16,7 @@ class AssetFolder:
 
     Args:
         source: the mesh file.
+        within: the folder that files must lie in: the source's own, or one around it.
         strict: names must be right as they stand. Otherwise a name with a wrong folder, as exporters leave in
             MTL and DAE files ("C:\\\\work\\\\wood.png"), is looked for beside the source too.
 
@@ -24,10 +25,10 @@ class AssetFolder:
         missing: a sentence for each name that was asked for in vain.
     """
 
-    def __init__(self, source: Path, strict: bool) -> None:
+    def __init__(self, source: Path, within: Path, strict: bool) -> None:
         self.file_name = source.name
         self.missing: list[str] = []
-        self._root = source.parent.resolve()
+        self._home, self._root = source.parent.resolve(), within.resolve()
         self._strict = strict
 
     def get(self, name: str) -> bytes:
@@ -37,9 +38,11 @@ class AssetFolder:
             plain = unquote(name.strip().strip('"')).replace("\\", "/").removeprefix("file://")
             candidates += [plain, plain.rsplit("/", 1)[-1]]
         for candidate in candidates:
-            if path := inside(self._root, candidate):
+            if path := inside(self._root, str(self._home / candidate)):
                 return path.read_bytes()
-        outside = all(inside(self._root, candidate, exists=False) is None for candidate in candidates)
+        outside = all(
+            inside(self._root, str(self._home / candidate), exists=False) is None for candidate in candidates
+        )
         reason = "is outside its folder: copy it there" if outside else "is not in its folder: copy it there"
         sentence = f"'{name}', which it refers to, {reason}"
         if sentence not in self.missing:

@@ -62,14 +62,27 @@ UNITS_3MF = {
 @hookimpl
 def load_mesh(path: Path) -> Mesh | None:
     """Read a file of one of the formats above."""
+    return read_mesh(path, path.parent)
+
+
+def read_mesh(path: Path, within: Path) -> Mesh | None:
+    """Read a file of one of the formats above; None of another.
+
+    Args:
+        path: the file.
+        within: folder around it; what the file refers to must lie there.
+
+    Raises:
+        BadInputError: the file is broken; names it.
+    """
     kind = path.suffix.lower().lstrip(".")
     if kind not in UP:
         return None
     with reading(path, kind.upper()):
-        return _load(path, kind)
+        return _load(path, kind, within)
 
 
-def _load(path: Path, kind: str) -> Mesh:
+def _load(path: Path, kind: str, within: Path) -> Mesh:
     warnings = check_gltf(path) if kind in GLTF else []
     if kind == "3mf":
         check_zip(path)
@@ -77,7 +90,7 @@ def _load(path: Path, kind: str) -> Mesh:
     if kind == "obj":
         warnings, data = obj_warnings(data), clean_obj(data)
     up, metres = dae_frame(data) if kind == "dae" else (UP[kind], 1.0 if kind in GLTF else None)
-    folder, palette = AssetFolder(path, strict=kind in GLTF), Palette()
+    folder, palette = AssetFolder(path, within, strict=kind in GLTF), Palette()
     with survived("trimesh") as troubles:
         parsed = _parsed(data, kind, folder)
         pieces = bounded(

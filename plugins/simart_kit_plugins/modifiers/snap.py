@@ -26,6 +26,7 @@ class Snap(Modifier):
     """Axes within an angle of a main direction of the surface take that direction."""
 
     name = "snap"
+    corrects_joints = True
 
     class Options(simart_kit.Options):
         """How near is near."""

@@ -46,9 +46,9 @@ class PartNetMobility(TruthFormat):
         urdf, name = path / URDF_FILE, path.resolve().name
         if not urdf.is_file():
             raise BadInputError(f"{path} has no {URDF_FILE}, which holds the shapes and joints of the object")
-        kinds = _kinds(path / PARTNET_FILE)
+        kinds = link_kinds(path / PARTNET_FILE)
         articulation, notes = read_urdf(urdf, name)
-        links = tuple(_labelled(link, kinds) for link in articulation.links)
+        links = tuple(labelled(link, kinds) for link in articulation.links)
         return Truth(
             name,
             replace(articulation, links=links),
@@ -59,13 +59,14 @@ class PartNetMobility(TruthFormat):
         )
 
 
-def _labelled(link: Link, kinds: Mapping[int, str]) -> Link:
+def labelled(link: Link, kinds: Mapping[int, str]) -> Link:
+    """The link with what kind of thing it is, if it is one that `kinds` knows."""
     found = re.fullmatch(r"link_(\d+)", link.name)
     return replace(link, label=kinds.get(int(found[1]), "")) if found else link
 
 
-def _kinds(path: Path) -> dict[int, str]:
-    """What kind of thing each link is, by id."""
+def link_kinds(path: Path) -> dict[int, str]:
+    """What kind of thing each link is, by id; raises BadInputError when the file is damaged."""
     entries = _json(path)
     kinds = {}
     for entry in entries if isinstance(entries, list) else [None]:

@@ -8,6 +8,7 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
+from ...arrays import FloatArray
 from ...errors import BadInputError
 from .mesh_files import Triangles, joined, moved, read_triangles
 from .primitives import box, capsule, cylinder, ellipsoid
@@ -32,26 +33,43 @@ def link_surface(link: Element, folder: Path) -> Triangles | None:
     """
     shapes = link.findall("visual") or link.findall("collision")
     try:
-        pieces = [moved(_shape(shape, folder), origin(shape)) for shape in shapes]
+        pieces = [moved(_surface(shape, folder), origin(shape)) for shape in shapes]
     except BadInputError as error:
         raise BadInputError(f"link '{link.get('name')}': {error}") from error
     return joined(pieces) if pieces else None
 
 
-def _shape(element: Element, folder: Path) -> Triangles:
+def shape_of(element: Element) -> Element:
+    """The one shape of a `<visual>` or `<collision>`; raises BadInputError when there is none, or several."""
     geometry = element.find("geometry")
     found = [] if geometry is None else [child for child in geometry if child.tag in _SHAPES]
     if len(found) != 1:
         raise BadInputError(f"a <{element.tag}> needs a <geometry> with one of {', '.join(_SHAPES)}")
-    shape = found[0]
-    if shape.tag == "mesh":
-        return _mesh(shape, folder)
+    return found[0]
+
+
+def primitive(shape: Element) -> Triangles:
+    """The surface of a shape without a mesh file; raises BadInputError for sizes that are none."""
     if shape.tag == "box":
         return box(_sizes(shape, "size", 3))
     radius = _sizes(shape, "radius", 1)[0]
     if shape.tag == "sphere":
         return ellipsoid((radius, radius, radius))
     return (cylinder if shape.tag == "cylinder" else capsule)(radius, _sizes(shape, "length", 1)[0])
+
+
+def mesh_scale(mesh: Element) -> FloatArray:
+    """(4, 4) scaling of a `<mesh>`, by one number or three; raises BadInputError for anything else."""
+    words = mesh.get("scale", "1 1 1").split()
+    scale = numbers(mesh, "scale", len(words) if len(words) in (1, 3) else 3, "1 1 1")
+    return np.diag([*(scale * np.ones(3)), 1.0])
+
+
+def _surface(element: Element, folder: Path) -> Triangles:
+    shape = shape_of(element)
+    if shape.tag != "mesh":
+        return primitive(shape)
+    return moved(read_triangles(mesh_file(shape.get("filename", ""), folder)), mesh_scale(shape))
 
 
 def _sizes(shape: Element, attribute: str, count: int) -> tuple[float, ...]:
@@ -61,15 +79,7 @@ def _sizes(shape: Element, attribute: str, count: int) -> tuple[float, ...]:
     return tuple(float(size) for size in sizes)
 
 
-def _mesh(mesh: Element, folder: Path) -> Triangles:
-    words = mesh.get("scale", "1 1 1").split()
-    scale = numbers(mesh, "scale", len(words) if len(words) in (1, 3) else 3, "1 1 1")
-    return moved(
-        read_triangles(_file(mesh.get("filename", ""), folder)), np.diag([*(scale * np.ones(3)), 1.0])
-    )
-
-
-def _file(name: str, folder: Path) -> Path:
+def mesh_file(name: str, folder: Path) -> Path:
     """The file that a mesh's `filename` means.
 
     A package is a folder of its name in or around the URDF's folder, else one around it with a package.xml,
