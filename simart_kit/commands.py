@@ -18,7 +18,18 @@ GROUPS = {
 # Names of the command line itself, which a plugin cannot have: it would stand in the way of the tool.
 CORE_NAMES = frozenset(
     {
-        *("convert", "ground", "export", "check", "inspect", "doctor", "version", "recipes", "plugins"),
+        *(
+            "convert",
+            "spec",
+            "ground",
+            "export",
+            "check",
+            "inspect",
+            "doctor",
+            "version",
+            "recipes",
+            "plugins",
+        ),
         *GROUPS,
         *(f"bench {name}" for name in ("run", "score", "compare", "report", "import", "grounding")),
     }

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from .assemble import assemble, checked
-from .asset import Asset, clean_name
+from .asset import Asset, Joint, clean_name
 from .asset_io import save_asset
 from .checks import run_checks
 from .checks.subject import Subject
@@ -25,6 +25,12 @@ from .provenance import provenance, write_json
 from .recipe import Recipe, build, build_checks, load_recipe
 from .report import Report
 from .runner import Run, Runner
+from .spec.moving import with_joints
+from .spec.protocols import predict_by, segment_by
+from .spec.reading import read_spec
+from .spec.shaping import with_parts
+from .spec.values import Spec
+from .spec.verdicts import with_verdicts
 from .stages import JointPredictor, Modifier, Segmentation, Segmenter
 
 
@@ -57,6 +63,7 @@ def convert(
     height: float | None = None,
     scale: float | None = None,
     floating: bool = False,
+    spec: str | Path | Mapping[str, Any] | Spec | None = None,
     record: bool = True,
     plugins: Plugins | None = None,
 ) -> Result:
@@ -73,11 +80,12 @@ def convert(
         height: real height of the object [m].
         scale: factor on the size.
         floating: leave the base free instead of fixing it to the world.
+        spec: what a person or a model states of what moves: a TOML or JSON file, or its values.
         record: write a rerun recording.
         plugins: the default loads all installed ones.
 
     Raises:
-        BadInputError: the source cannot be used; nothing is written.
+        BadInputError: the source or the spec cannot be used; nothing is written.
         RecipeError, PluginError: the recipe cannot be run; nothing is written.
         StageError: a stage failed; `out/failed` keeps its input and the recording, the rest is as it was.
     """
@@ -85,6 +93,7 @@ def convert(
     path = source_path(source)
     name = clean_name(name or path.stem, "asset")
     resolved = load_recipe(recipe, plugins, [*sets, *_scale_sets(height, scale)])
+    wishes = None if spec is None else read_spec(spec)
     folder = Path(out) if out is not None else Path("out") / name
 
     with staging(folder) as work:
@@ -92,11 +101,13 @@ def convert(
         with _failures_kept(runner, folder):
             runner.tell("run_started")
             loaded = _load(runner, plugins, path, up, unit)
-            segmentation = _segment(runner, plugins, resolved, loaded)
-            asset = _articulate(runner, plugins, resolved, loaded, segmentation, name, floating)
-            asset = _modify(runner, plugins, resolved, asset)
+            segmentation = _segment(runner, plugins, resolved, loaded, wishes)
+            asset = _articulate(runner, plugins, resolved, loaded, segmentation, name, floating, wishes)
+            asset = _modify(runner, plugins, resolved, asset, loaded.stated is not None)
+            asset = asset if wishes is None else with_verdicts(asset, wishes)
             report, mains = _write(runner, plugins, resolved, asset)
-        arguments = {"name": name, "up": up, "unit": unit, "floating": floating}
+        arguments: dict[str, Any] = {"name": name, "up": up, "unit": unit, "floating": floating}
+        arguments["spec"] = None if wishes is None else wishes.table()
         return _finish(runner, plugins, loaded, report, mains, folder, arguments)
 
 
@@ -106,9 +117,17 @@ def _load(
     return runner.call("load", path.suffix.lstrip(".").lower(), read_source, path, plugins, up, unit)
 
 
-def _segment(runner: Runner, plugins: Plugins, recipe: Recipe, loaded: Source) -> Segmentation:
-    stage, registration = build(recipe.segmenter, Segmenter, plugins, recipe.seed)
-    return runner.stage("segment", registration, lambda mesh: checked(stage.segment(mesh), mesh), loaded.mesh)
+def _segment(
+    runner: Runner, plugins: Plugins, recipe: Recipe, loaded: Source, spec: Spec | None
+) -> Segmentation:
+    if loaded.stated is not None:
+        found = runner.call("segment", "stated", lambda stated: stated, loaded.stated)
+    else:
+        stage, registration = build(recipe.segmenter, Segmenter, plugins, recipe.seed)
+        found = runner.stage(
+            "segment", registration, lambda mesh: checked(segment_by(stage, mesh, spec), mesh), loaded.mesh
+        )
+    return found if spec is None else runner.call("spec", "parts", with_parts, found, loaded.mesh, spec)
 
 
 def _articulate(
@@ -119,22 +138,33 @@ def _articulate(
     segmentation: Segmentation,
     name: str,
     floating: bool,
+    spec: Spec | None,
 ) -> Asset:
+    def assembled(joints: tuple[Joint, ...]) -> Asset:
+        joints = joints if spec is None else with_joints(joints, segmentation, loaded.mesh, spec)
+        asset = assemble(name, loaded.mesh, segmentation, joints, loaded.asset_from_source, floating)
+        return overridden(asset, recipe.physics)
+
+    if loaded.stated is not None:
+        return runner.call("joints", "stated", assembled, segmentation.joints or ())
     stage, registration = build(recipe.joints, JointPredictor, plugins, recipe.seed)
 
     def predicted(segmentation: Segmentation) -> Asset:
-        joints = stage.predict(segmentation.mesh_of(loaded.mesh), segmentation)
-        asset = assemble(name, loaded.mesh, segmentation, joints, loaded.asset_from_source, floating)
-        return overridden(asset, recipe.physics)
+        return assembled(predict_by(stage, segmentation.mesh_of(loaded.mesh), segmentation, spec))
 
     return runner.stage("joints", registration, predicted, segmentation)
 
 
-def _modify(runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset) -> Asset:
+def _modify(runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset, stated: bool) -> Asset:
+    kept = []
     for use in recipe.modify:
         stage, registration = build(use, Modifier, plugins, recipe.seed)
-        asset = runner.stage("modify", registration, _modified, asset, stage)
-    return asset
+        if stated and stage.corrects_joints:
+            kept.append(use.use)
+        else:
+            asset = runner.stage("modify", registration, _modified, asset, stage)
+    text = f"the file states its joints, so they are left as they are by {', '.join(kept)}"
+    return asset.with_notes("load", "info", [text] if kept else [])
 
 
 def _modified(asset: Asset, modifier: Modifier) -> Asset:

@@ -15,6 +15,7 @@ from .export import export
 from .ground import ground
 from .inspect import inspect
 from .plugin_commands import PluginGroup
+from .spec import spec
 from .version import print_version, version
 
 EPILOG = (
@@ -31,7 +32,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     add_completion=False,
 )
-for command in (convert, ground, export, check, inspect, doctor, version):
+for command in (convert, spec, ground, export, check, inspect, doctor, version):
     app.command(epilog=EPILOG)(command)
 app.add_typer(bench.app, name="bench")
 app.add_typer(recipes.app, name="recipes")

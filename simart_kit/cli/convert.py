@@ -53,6 +53,14 @@ Words = Annotated[
         "for --set segmenter.options.text=...",
     ),
 ]
+SpecFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--spec",
+        metavar="FILE",
+        help="What moves, as you state it: a TOML or JSON file such as `simart-kit spec` writes.",
+    ),
+]
 Floating = Annotated[
     bool, typer.Option("--floating", help="Leave the base free instead of fixed to the world.")
 ]
@@ -72,6 +80,7 @@ def convert(
     transfer: TransferMode = None,
     image: Photo = None,
     words: Words = None,
+    spec: SpecFile = None,
     up: Up = None,
     unit: Unit = None,
     height: Annotated[float | None, typer.Option(metavar="M", help="Real height of the object [m].")] = None,
@@ -113,6 +122,7 @@ def convert(
                 height=height,
                 scale=scale,
                 floating=floating,
+                spec=spec,
                 record=not no_record,
                 plugins=plugins,
             )

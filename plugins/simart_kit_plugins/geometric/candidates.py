@@ -33,6 +33,10 @@ class Candidate:
     edge: str = ""
 
 
+Choice = tuple[Candidate, float, tuple[str, ...]]
+"""A joint, how sure it is (0..1), and why."""
+
+
 def slide(view: View) -> Candidate:
     """Out of the front, by most of its own depth."""
     travel = max(0.8 * view.box.size[2], 0.05) if view.is_box else 0.5 * float(view.body.size[2])

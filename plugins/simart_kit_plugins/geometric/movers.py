@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,7 @@ ENCLOSED = 0.85  # share of rays behind a panel that must meet something for a c
 SHALLOWEST = 0.05  # a cavity is at least this deep
 FLAT = 0.4  # share of a panel's surface that faces out or back
 LEAST_SHARE = 0.06  # of its side that a front without a handle takes
+_DOUBTFUL = 0.3  # how sure a front is that takes its whole side, and for which nothing else speaks
 
 
 @dataclass(frozen=True)
@@ -46,11 +48,24 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
             score = _fused_score(front) if fused else _score(front, facing == main)
             if score > 0:
                 chosen.append((score, front))
-    taken: set[int] = set()
-    movers = []
-    for score, front in sorted(chosen, key=lambda item: (-item[0], -item[1].area)):
-        if not taken.intersection(front.pieces):
-            taken.update(front.pieces)
+    return _apart(chosen, set())
+
+
+def doubtful_movers(scene: Scene, contacts: Contacts, taken: set[int]) -> list[Mover]:
+    """Panels and boxes of the main side and on top, for which too little speaks; none of `taken` pieces."""
+    fronts = {facing: find_fronts(scene, contacts, facing) for facing in FACINGS}
+    sides = {_main_side(fronts), "top"}
+    found = [front for facing in FACINGS if facing in sides for front in fronts[facing]]
+    able = [front for front in found if _is_panel(front) or front.boxed]
+    return _apart([(_DOUBTFUL * front.share, front) for front in able], taken)
+
+
+def _apart(scored: Sequence[tuple[float, Front]], taken: set[int]) -> list[Mover]:
+    """The surest first, without those that share pieces with surer ones or with `taken`."""
+    used, movers = set(taken), []
+    for score, front in sorted(scored, key=lambda item: (-item[0], -item[1].area)):
+        if not used.intersection(front.pieces):
+            used.update(front.pieces)
             movers.append(Mover(front.pieces, _label(front), score, _evidence(front)))
     return movers
 

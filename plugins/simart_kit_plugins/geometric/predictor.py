@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,7 +18,7 @@ from simart_kit.kinematics import rotation
 from simart_kit.segments import find_segments
 from simart_kit.sweeping import Motion, Sweep
 
-from .candidates import Candidate, at_depth, hinges, slide, spin
+from .candidates import Candidate, Choice, at_depth, hinges, slide, spin
 from .choice import SPINNING, Surroundings, edge_score, hinge_score, says, slide_score
 from .contact import Contacts
 from .rounds import round_axis
@@ -26,6 +28,7 @@ from .views import View, view_part
 if TYPE_CHECKING:
     from simart_kit import Mesh
     from simart_kit.arrays import FloatArray
+    from simart_kit.spec.values import Spec
 
 _SUFFIX = {"revolute": "hinge", "prismatic": "slide", "continuous": "spin"}
 _SHUT = np.deg2rad(0.5)
@@ -50,6 +53,13 @@ class GeometricJoints(JointPredictor):
 
     def predict(self, mesh: Mesh, segmentation: Segmentation) -> tuple[Joint, ...]:
         """Joints from the body, or from the part that carries a part, to every part."""
+        return self._predicted(mesh, segmentation, None)
+
+    def predict_to(self, mesh: Mesh, segmentation: Segmentation, spec: Spec) -> tuple[Joint, ...]:
+        """As `predict`; where a spec states another kind or axis, the best of the candidates that fit."""
+        return self._predicted(mesh, segmentation, spec)
+
+    def _predicted(self, mesh: Mesh, segmentation: Segmentation, spec: Spec | None) -> tuple[Joint, ...]:
         if len(segmentation.parts) == 1:
             return ()
         scene = make_scene(mesh, segmentation.face_part)
@@ -58,20 +68,25 @@ class GeometricJoints(JointPredictor):
         views = {i: view_part(scene, i) for i in moving}
         hardware = _hardware(mesh, scene, body)
         contacts = Contacts(scene)
+        granted = _granting(mesh, segmentation, spec)
         found = []
         for part in moving:
             label = segmentation.parts[part].label or segmentation.parts[part].name
             around = _surroundings(scene, views[part], hardware, [i for i in moving if i != part])
-            candidate, confidence, evidence = self._choose(scene, views[part], label, around)
-            parent = _carrier(contacts, body, part, moving)
-            found.append(
-                self._joint(scene, views[part], candidate, segmentation, parent, part, confidence, evidence)
+            made = partial(
+                self._joint, scene, views[part], segmentation, _carrier(contacts, body, part, moving)
             )
+            joint = made(self._choose(scene, views[part], label, around))
+            if not granted(part, joint):
+                from .honouring import alternatives
+
+                others = alternatives(scene, views[part], label, around)
+                fitting = next((other for other in others if granted(part, made(other))), None)
+                joint = made(_deepened(scene, views[part], fitting)) if fitting else joint
+            found.append(joint)
         return _renamed(found)
 
-    def _choose(
-        self, scene: Scene, view: View, label: str, around: Surroundings
-    ) -> tuple[Candidate, float, tuple[str, ...]]:
+    def _choose(self, scene: Scene, view: View, label: str, around: Surroundings) -> Choice:
         if says(label, SPINNING):
             points = scene.triangles[scene.labels == view.part].reshape(-1, 3)
             axis = round_axis(points)
@@ -92,14 +107,12 @@ class GeometricJoints(JointPredictor):
         self,
         scene: Scene,
         view: View,
-        candidate: Candidate,
         segmentation: Segmentation,
         parent: int,
-        part: int,
-        confidence: float,
-        evidence: tuple[str, ...],
+        choice: Choice,
     ) -> Joint:
-        child = segmentation.parts[part].name
+        candidate, confidence, evidence = choice
+        child = segmentation.parts[view.part].name
         limits = None
         if candidate.kind == "revolute":
             closed = float(_closed(view, candidate))
@@ -117,6 +130,15 @@ class GeometricJoints(JointPredictor):
             confidence=confidence,
             evidence=evidence,
         )
+
+
+def _granting(mesh: Mesh, segmentation: Segmentation, spec: Spec | None) -> Callable[[int, Joint], bool]:
+    """Whether the joint of the part of a number is as stated; without a spec, always."""
+    if spec is None:
+        return lambda part, joint: True
+    from .honouring import granting
+
+    return granting(mesh, segmentation, spec)
 
 
 def _body(scene: Scene, segmentation: Segmentation) -> int:
@@ -163,6 +185,14 @@ def _carrier(contacts: Contacts, body: int, part: int, moving: list[int]) -> int
         return body
     nearest = min(others, key=lambda other: contacts.gap(part, other))
     return nearest if contacts.gap(part, nearest) < np.inf else body
+
+
+def _deepened(scene: Scene, view: View, choice: Choice) -> Choice:
+    """The choice, a hinge moved to where it opens most freely."""
+    candidate, confidence, evidence = choice
+    if candidate.kind != "revolute":
+        return choice
+    return _deep_enough(scene, view, candidate), confidence, evidence
 
 
 def _deep_enough(scene: Scene, view: View, hinge: Candidate) -> Candidate:

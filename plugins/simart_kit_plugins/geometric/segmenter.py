@@ -13,13 +13,14 @@ from simart_kit.arrays import frozen_ints
 from simart_kit.segments import Segments, find_segments
 
 from .contact import Contacts
-from .movers import Mover, front_movers
+from .movers import Mover, doubtful_movers, front_movers
 from .naming import names
 from .rounds import knobs, wheels
 from .scene import Scene, make_scene
 
 if TYPE_CHECKING:
     from simart_kit import Mesh
+    from simart_kit.spec.values import Spec
 
 _MOST_PIECES = 600
 
@@ -40,10 +41,17 @@ class Geometric(Segmenter):
 
     def segment(self, mesh: Mesh) -> Segmentation:
         """The body as part 0, then every mover found; a static object is one part."""
+        return self._segmented(mesh, None)
+
+    def segment_to(self, mesh: Mesh, spec: Spec) -> Segmentation:
+        """As `segment`, with as many movers of each kind as a spec states, where there are."""
+        return self._segmented(mesh, spec)
+
+    def _segmented(self, mesh: Mesh, spec: Spec | None) -> Segmentation:
         segments = find_segments(mesh, np.deg2rad(self.options.crease), self.options.node_hint)
         # Segments come largest first: what is beyond the most pieces counts as one, and stays with the body.
         scene = make_scene(mesh, np.minimum(segments.face_segment, _MOST_PIECES))
-        movers = _find(scene, segments)[: self.options.max_parts]
+        movers = _find(scene, segments, spec)[: self.options.max_parts]
         face_part = np.zeros(len(mesh.faces), dtype=np.int32)
         for number, mover in enumerate(movers, start=1):
             face_part[scene.faces_of(mover.pieces)] = number
@@ -59,7 +67,7 @@ class Geometric(Segmenter):
         )
 
 
-def _find(scene: Scene, segments: Segments) -> list[Mover]:
+def _find(scene: Scene, segments: Segments, spec: Spec | None) -> list[Mover]:
     # So many patches are the noise of a scanned or generated skin: what they suggest is not there.
     if segments.count == 1 or (segments.patches and segments.count > _MOST_PIECES):
         return []
@@ -69,6 +77,11 @@ def _find(scene: Scene, segments: Segments) -> list[Mover]:
     rolling = [m for m in wheels(scene, contacts) if not taken.intersection(m.pieces)]
     taken.update(piece for mover in rolling for piece in mover.pieces)
     found = movers + rolling + knobs(scene, taken)
+    if spec is not None:
+        from .honouring import chosen_movers
+
+        used = {piece for mover in found for piece in mover.pieces}
+        found = chosen_movers(spec, scene, found, lambda: doubtful_movers(scene, contacts, used))
     return sorted(found, key=lambda mover: -mover.score)
 
 

@@ -10,14 +10,14 @@ import numpy as np
 from simart_kit.arrays import FloatArray, IntArray
 from simart_kit.asset import JointKind
 
-from .candidates import SLIDE, Candidates, alike
+from .candidates import Candidates
+from .choices import Choices
 from .cloud import Cloud
 from .evidence import COUNT
 from .grouping import Group, groups, piece_parts
 from .network import NanoNetwork
 from .part_lines import part_lines
 from .siblings import shared_certainty
-from .truth import KINDS
 from .voting import Said, SaidParts, say, say_parts
 
 # From how many sides an object is looked at.
@@ -45,6 +45,7 @@ class PredictedPart:
         parent: number of the part that carries it, from 1; 0 is the body.
         confidence: chance of kind and line together; 0..1.
         certainty: how sure it is that this moves, and moves so, as parts of its shape do; 0..1.
+        choices: what is said of all its joints, where that is kept.
     """
 
     pieces: IntArray
@@ -58,6 +59,7 @@ class PredictedPart:
     parent: int
     confidence: float
     certainty: float
+    choices: Choices | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,30 +183,21 @@ def _part(
     own: Candidates,
     parent: int,
 ) -> PredictedPart:
-    kinds = parts.kind[row]
-    kind = KINDS[int(kinds.argmax())]
-    slide = kind == "prismatic"
-    chance = parts.right[row, : len(own)] * ((own.source == SLIDE) == slide)
-    # Several candidates may say the same: their chances add up.
-    together = chance @ alike(own) / max(chance.sum(), 1e-9)
-    best = int((chance * together).argmax())
-    lower, upper = parts.travel[row, best].tolist()
-    axis = own.axis[best]
-    if -lower > upper:  # positive opens
-        axis, lower, upper = -axis, -upper, -lower
-    limited = kind in ("revolute", "prismatic")
+    count = len(own)
+    choices = Choices(parts.kind[row], parts.right[row, :count], parts.travel[row, :count], own)
+    best = choices.best()
     label = int(said.label[group.pieces].mean(axis=0).argmax())
-    confidence = float(kinds.max() * (together[best] if kind not in ("ball", "free") else 1.0))
     return PredictedPart(
         group.pieces,
         network.config.labels[label - 1] if label else "",
         group.score,
-        kind,
-        axis,
-        own.origin[best],
-        min(lower, 0.0) if limited else 0.0,
-        max(upper, 0.0) if limited else 0.0,
+        best.kind,
+        best.axis,
+        best.origin,
+        best.lower,
+        best.upper,
         parent,
-        confidence,
-        group.score * confidence,
+        best.confidence,
+        group.score * best.confidence,
+        choices,
     )

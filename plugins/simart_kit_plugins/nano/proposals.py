@@ -12,15 +12,18 @@ from simart_kit import Joint, Limits, PartGuess, Segmentation
 from simart_kit.arrays import BoolArray, FloatArray, vec3
 from simart_kit.assemble import checked
 from simart_kit.asset import clean_name, unique_names
+from simart_kit.spec.protocols import predict_by, segment_by
 
 if TYPE_CHECKING:
     from simart_kit import Mesh
     from simart_kit.arrays import IntArray
+    from simart_kit.spec.values import Spec
 
+    from .choices import Choices, Motion
     from .meshes import MeshCloud
-    from .predicting import Prediction
+    from .predicting import PredictedPart, Prediction
 
-_SUFFIX = {"revolute": "hinge", "prismatic": "slide", "continuous": "spin"}
+SUFFIX = {"revolute": "hinge", "prismatic": "slide", "continuous": "spin"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,12 +35,14 @@ class Proposal:
         guess: what it is taken for.
         joint: how it moves; its parent and child are named when all parts are known.
         parent: place of the part that carries it among those proposed with it; None for the body.
+        choices: what the network says of all its joints; None where geometry proposes it.
     """
 
     faces: BoolArray
     guess: PartGuess
     joint: Joint
     parent: int | None
+    choices: Choices | None = None
 
 
 def of_network(said: Prediction, face_part: IntArray, seen: MeshCloud) -> list[Proposal]:
@@ -47,32 +52,38 @@ def of_network(said: Prediction, face_part: IntArray, seen: MeshCloud) -> list[P
     proposals = []
     for number in kept:
         part = said.parts[number - 1]
-        scale = seen.size if part.kind == "prismatic" else 1.0
-        limited = part.kind in ("revolute", "prismatic")
-        joint = Joint(
-            "joint",
-            part.kind,
-            "body",
-            "part",
-            vec3(part.origin * seen.size + seen.center),
-            vec3(part.axis),
-            Limits(part.lower * scale, part.upper * scale) if limited else None,
-            confidence=part.confidence,
-            evidence=(f"simart-nano: {part.confidence:.2f} sure of kind and axis",),
-        )
+        joint = joint_of(part, seen)
         guess = PartGuess(clean_name(part.label or "part"), label=part.label, score=part.certainty)
-        proposals.append(Proposal(face_part == number, guess, joint, place.get(part.parent)))
+        parent = place.get(part.parent)
+        proposals.append(Proposal(face_part == number, guess, joint, parent, part.choices))
     return proposals
 
 
-def of_geometry(mesh: Mesh, seed: int) -> list[Proposal]:
-    """What the segmenter and the joint predictor `geometric` find, in their order."""
+def joint_of(motion: PredictedPart | Motion, seen: MeshCloud) -> Joint:
+    """A joint of the asset by one of the cloud; its parent and child are named later."""
+    scale = seen.size if motion.kind == "prismatic" else 1.0
+    limited = motion.kind in ("revolute", "prismatic")
+    return Joint(
+        "joint",
+        motion.kind,
+        "body",
+        "part",
+        vec3(motion.origin * seen.size + seen.center),
+        vec3(motion.axis),
+        Limits(motion.lower * scale, motion.upper * scale) if limited else None,
+        confidence=motion.confidence,
+        evidence=(f"simart-nano: {motion.confidence:.2f} sure of kind and axis",),
+    )
+
+
+def of_geometry(mesh: Mesh, seed: int, spec: Spec | None = None) -> list[Proposal]:
+    """What the segmenter and the joint predictor `geometric` find, in their order; a spec is heeded."""
     from ..geometric.predictor import GeometricJoints
     from ..geometric.segmenter import Geometric
 
-    found = checked(Geometric(seed=seed).segment(mesh), mesh)
+    found = checked(segment_by(Geometric(seed=seed), mesh, spec), mesh)
     names = [guess.name for guess in found.parts]
-    joints = GeometricJoints(seed=seed).predict(mesh, found)
+    joints = predict_by(GeometricJoints(seed=seed), mesh, found, spec)
     place = {joint.child: k for k, joint in enumerate(joints)}
     return [
         Proposal(
@@ -94,9 +105,17 @@ def with_body(mesh: Mesh, proposals: Sequence[Proposal]) -> list[Proposal]:
     if not kept or not claimed.all():
         return kept
     largest = int(np.argmax([mesh.face_areas[proposal.faces].sum() for proposal in kept]))
-    del kept[largest]
-    places = [None if p.parent in (None, largest) else p.parent - (p.parent > largest) for p in kept]
-    return [replace(p, parent=place) for p, place in zip(kept, places, strict=True)]
+    return only(kept, [k for k in range(len(kept)) if k != largest])
+
+
+def only(proposals: Sequence[Proposal], kept: Sequence[int]) -> list[Proposal]:
+    """Some of the proposals; what one that is left out carries hangs on the body."""
+    place = {old: new for new, old in enumerate(kept)}
+    carriers = [proposals[k].parent for k in kept]
+    return [
+        replace(proposals[k], parent=None if carrier is None else place.get(carrier))
+        for k, carrier in zip(kept, carriers, strict=True)
+    ]
 
 
 def segmentation_of(
@@ -114,7 +133,7 @@ def segmentation_of(
     joints = []
     for number, proposal in enumerate(proposals, start=1):
         face_part[proposal.faces] = number
-        suffix = _SUFFIX.get(proposal.joint.kind, "joint")
+        suffix = SUFFIX.get(proposal.joint.kind, "joint")
         parent = names[0 if proposal.parent is None else proposal.parent + 1]
         joints.append(
             replace(proposal.joint, name=f"{names[number]}_{suffix}", parent=parent, child=names[number])

@@ -18,6 +18,7 @@ from simart_kit.segments import find_segments
 
 if TYPE_CHECKING:
     from simart_kit import Mesh
+    from simart_kit.spec.values import Spec
 
     from .meshes import MeshCloud
     from .predicting import PredictedPart, Prediction
@@ -57,6 +58,17 @@ class Nano(Segmenter):
         Raises:
             BadInputError: the weights cannot be read.
         """
+        return self._segmented(mesh, None)
+
+    def segment_to(self, mesh: Mesh, spec: Spec) -> Segmentation:
+        """As `segment`; where a spec states other parts or joints, the likeliest of those that fit.
+
+        Raises:
+            BadInputError: the weights cannot be read.
+        """
+        return self._segmented(mesh, spec)
+
+    def _segmented(self, mesh: Mesh, spec: Spec | None) -> Segmentation:
         from .meshes import mesh_cloud
         from .predicting import predict
         from .showing import evidence
@@ -68,17 +80,25 @@ class Nano(Segmenter):
         said = predict(model.network, seen.cloud, self.options.least, self.options.votes)
         material = partial(model.known.material, said.category)
         still = sum(said.categories[name] for name in model.known.still)
+        if spec is not None and spec.moves:
+            still = 0.0
         if still >= _STILL:
             found = _static(mesh, seen, material)
         else:
-            found = (_of_skin if seen.skin else self._of_pieces)(mesh, said, seen, material)
+            found = (_of_skin if seen.skin else self._of_pieces)(mesh, said, seen, material, spec)
         assert found.face_segment is not None
         shown = evidence(found.mesh_of(mesh), found.face_segment, said, seen)
         return replace(found, notes=_notes(said, seen, still, len(found.parts) - 1), evidence=shown)
 
     def _of_pieces(
-        self, mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[str], str]
+        self,
+        mesh: Mesh,
+        said: Prediction,
+        seen: MeshCloud,
+        material: Callable[[str], str],
+        spec: Spec | None,
     ) -> Segmentation:
+        from .honouring import chosen, rejoined
         from .pooling import pooled
         from .proposals import of_geometry, of_network, segmentation_of, with_body
 
@@ -88,7 +108,11 @@ class Nano(Segmenter):
             # Borders and lines by geometry are exact, but who knows the object finds more of it.
             first, second = (proposals, geometry) if said.recognised else (geometry, proposals)
             proposals = pooled(mesh, first, second)
-        found = segmentation_of(with_body(mesh, proposals), len(mesh.faces), material)
+        if spec is not None:
+            proposals = chosen(mesh, said, seen, proposals, spec, self.seed)
+        kept = with_body(mesh, proposals)
+        found = segmentation_of(kept, len(mesh.faces), material)
+        found = found if spec is None else rejoined(mesh, found, kept, seen, spec)
         return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
 
 
@@ -99,13 +123,17 @@ def _static(mesh: Mesh, seen: MeshCloud, material: Callable[[str], str]) -> Segm
     return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
 
 
-def _of_skin(mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[str], str]) -> Segmentation:
+def _of_skin(
+    mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[str], str], spec: Spec | None
+) -> Segmentation:
     """Parts of a skin, their ends where creases, colours and short ways suggest; large faces may be cut."""
     from .boundaries.cutting import cut
     from .boundaries.patch_parts import patch_parts, patch_size
+    from .honouring import chosen_said, rejoined
     from .proposals import of_network, segmentation_of, with_body
 
     assert seen.middles is not None
+    said = said if spec is None else chosen_said(said, seen, spec)
     face_part = said.piece_part[seen.face_piece].astype(np.int32)
     if not said.parts:
         return _static(mesh, seen, material)
@@ -114,6 +142,7 @@ def _of_skin(mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[
     # The body's patches may be the middle of no face.
     proposals = with_body(done.mesh, of_network(said, done.face_part, seen))
     found = segmentation_of(proposals, len(done.face_part), material)
+    found = found if spec is None else rejoined(done.mesh, found, proposals, seen, spec)
     pieces = frozen_ints(seen.face_piece[done.face_source].astype(np.int32))
     return replace(found, face_segment=pieces, mesh=None if done.mesh is mesh else done.mesh)
 

@@ -1,0 +1,42 @@
+"""Stages that take a spec in: they choose among their own candidates; the core sees to the rest."""
+
+from __future__ import annotations
+
+from typing import Protocol, runtime_checkable
+
+from ..asset import Joint
+from ..mesh import Mesh
+from ..stages import JointPredictor, Segmentation, Segmenter
+from .values import Spec
+
+
+@runtime_checkable
+class SpecSegmenter(Protocol):
+    """A segmenter that may find other parts where a spec says so."""
+
+    def segment_to(self, mesh: Mesh, spec: Spec) -> Segmentation:
+        """What `segment` says where that is as stated, else what comes nearest to it."""
+
+
+@runtime_checkable
+class SpecPredictor(Protocol):
+    """A joint predictor that may choose other joints where a spec says so."""
+
+    def predict_to(self, mesh: Mesh, segmentation: Segmentation, spec: Spec) -> tuple[Joint, ...]:
+        """What `predict` says where that is as stated, else what comes nearest to it."""
+
+
+def segment_by(stage: Segmenter, mesh: Mesh, spec: Spec | None) -> Segmentation:
+    """What a segmenter says, and of a spec if it takes one in."""
+    if spec is not None and isinstance(stage, SpecSegmenter):
+        return stage.segment_to(mesh, spec)
+    return stage.segment(mesh)
+
+
+def predict_by(
+    stage: JointPredictor, mesh: Mesh, segmentation: Segmentation, spec: Spec | None
+) -> tuple[Joint, ...]:
+    """What a joint predictor says, and of a spec if it takes one in."""
+    if spec is not None and isinstance(stage, SpecPredictor):
+        return stage.predict_to(mesh, segmentation, spec)
+    return stage.predict(mesh, segmentation)
