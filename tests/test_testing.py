@@ -12,6 +12,8 @@ import pytest
 
 import simart_kit as sk
 from simart_kit import hookspecs
+from simart_kit.doctor import examine
+from simart_kit.findings import Finding
 from simart_kit.testing import fakes, meshes
 from simart_kit.testing.fingerprint import fingerprint
 from simart_kit.testing.pytest_plugin import RunRecipe
@@ -86,6 +88,11 @@ class Nosy(fakes.FakeObserver):
         register("nosy", "nosy:main", "Look at everything.")
 
     @sk.hookimpl
+    def diagnose(self) -> list[Finding]:
+        self.called.add("diagnose")
+        return [Finding("glasses", "missing", remedy="look closer")]
+
+    @sk.hookimpl
     def load_mesh(self, path: Path) -> sk.Mesh | None:
         self.called.add("load_mesh")
         return meshes.cabinet_mesh() if path.suffix == ".nosy" else None
@@ -112,6 +119,9 @@ def test_every_hook_is_called_and_its_answer_used(tmp_path: Path, simart_plugins
             plugins=simart_plugins,
             record=False,
         )
+
+    found = [finding for told in examine(simart_plugins).plugins for finding in told.findings]
+    assert [finding.remedy for finding in found if finding.subject == "glasses"] == ["look closer"]
 
     assert nosy.called | {event.hook for event in nosy.events} == hook_names()
     assert {joint.name for joint in result.asset.joints} == {"door_hinge", "drawer_slide"}
