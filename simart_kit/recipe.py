@@ -14,7 +14,7 @@ from .physics_overrides import PhysicsTable
 from .plugins import Plugins, Registration
 from .recipe_files import LISTS, Table, read_table
 from .recipe_files import packaged_recipes as packaged_recipes
-from .stages import Check, Options, Stage
+from .stages import Check, Composed, Options, Stage
 
 S = TypeVar("S", bound=Stage)
 _SINGLES = {"segmenter": "segmenter", "joints": "joint predictor"}
@@ -118,6 +118,8 @@ def build(use: Use, base: type[S], plugins: Plugins, seed: int) -> tuple[S, Regi
     except ValidationError as error:
         raise RecipeError("; ".join(_option_mistakes((base.kind, "options"), stage_class, error))) from error
     try:
+        if issubclass(stage_class, Composed):
+            return stage_class(options, seed=seed, plugins=plugins), registration
         return stage_class(options, seed=seed), registration
     except Exception as cause:
         raise registration.failure(cause) from cause

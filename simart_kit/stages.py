@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .checks.subject import Subject
     from .evidence import Evidence
     from .mesh import Mesh, Note
+    from .plugins import Plugins
 
 
 class Options(BaseModel):
@@ -48,6 +49,20 @@ class Stage(ABC):
     def __init__(self, options: _AnyOptions | None = None, *, seed: int = 0) -> None:
         self.options = self.Options() if options is None else options
         self.seed = seed
+
+
+class Composed(Stage):
+    """A stage that makes use of others by their names, which only the run's plugins know.
+
+    Attributes:
+        plugins: of the run; None where the stage was made by hand, which then means all that are installed.
+    """
+
+    def __init__(
+        self, options: _AnyOptions | None = None, *, seed: int = 0, plugins: Plugins | None = None
+    ) -> None:
+        super().__init__(options, seed=seed)
+        self.plugins = plugins
 
 
 @dataclass(frozen=True)

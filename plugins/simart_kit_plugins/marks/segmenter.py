@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from simart_kit import Segmentation, Segmenter
+from simart_kit.stages import Composed
 
 from ..vlm import VlmOptions
 from .proposer import Proposer
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from .talk import Talk
 
 
-class P3SamVlm(Segmenter):
+class P3SamVlm(Composed, Segmenter):
     """Parts and joints by a vision-language model that chooses among drawn numbers and letters.
 
     Args:
@@ -68,8 +69,7 @@ class P3SamVlm(Segmenter):
         plugins: Plugins | None = None,
         vlm: Vlm | None = None,
     ) -> None:
-        super().__init__(options, seed=seed)
-        self._plugins = plugins
+        super().__init__(options, seed=seed, plugins=plugins)
         self._vlm = vlm
 
     def segment(self, mesh: Mesh) -> Segmentation:
@@ -116,6 +116,6 @@ class P3SamVlm(Segmenter):
         from .proposing import proposed
 
         options = self.options
-        plugins = self._plugins or Plugins()
+        plugins = self.plugins or Plugins()
         crease = float(np.deg2rad(options.crease))
         return proposed(mesh, options.proposer, plugins, self.seed, options.max_pieces, crease)
