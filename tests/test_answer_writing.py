@@ -14,6 +14,8 @@ from simart_kit_plugins.simart.tokens import TokenGrid, VoxelTokens
 
 from simart_kit.errors import BadInputError
 
+from .answer_cases import PAPER
+
 TALL = TokenGrid((16, 8, 8), 8192)
 # Few examples: the suite's time is short, and one answer has up to five parts.
 FEW = settings(max_examples=60, deadline=None, derandomize=True)
@@ -34,32 +36,6 @@ STORAGE_BOX = ObjectAnswer(
         ),
     ),
 )
-# As the paper prints it, but for the dots in its voxels.
-PRINTED = """{
-  "object_captions": {
-    "name": "Storage Box with Frame",
-    "scale": 40.0
-  },
-  "parts_captions": {
-    "0": {
-      "type": "fixed",
-      "material": "Plastic",
-      "density": "1.2 g/cm^3",
-      "Young's Modulus (GPa)": 2.5
-    },
-    "1": {
-      "type": "revolute",
-      "parent": "0",
-      "center": [100, 138, 101],
-      "axis": [100, 0, 0],
-      "limits": [-54, 45]
-    }
-  },
-  "parts_voxels": {
-    "0": "<voxel> 0 1785 <voxel> 1 649",
-    "1": "<voxel> 43 1930 <voxel> 44 13"
-  }
-}"""
 
 names = st.from_regex(r"[A-Za-z0-9]([A-Za-z0-9 _\-]{0,46}[A-Za-z0-9])?", fullmatch=True)
 measures = st.floats(min_value=1e-9, max_value=1e12)
@@ -114,7 +90,7 @@ def without_voxels(answer):
 
 
 def test_the_papers_example_is_written_as_it_prints_it():
-    assert answer_text(STORAGE_BOX, indent=2) == PRINTED
+    assert answer_text(STORAGE_BOX, indent=2) == PAPER
 
 
 def test_without_indent_there_are_no_blanks_but_in_texts():
@@ -216,7 +192,7 @@ PLACES = [
 @settings(max_examples=300, deadline=None, derandomize=True)
 @given(st.sampled_from(PLACES), json_values)
 def test_any_json_value_anywhere_is_read_or_refused_with_its_place(path, value):
-    table = json.loads(PRINTED)
+    table = json.loads(PAPER)
     place = table
     for key in path[:-1]:
         place = place[key]

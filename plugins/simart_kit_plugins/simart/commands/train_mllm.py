@@ -96,25 +96,17 @@ def train_mllm(
 
 
 def _performed(order: Order, quiet: bool) -> Outcome | None:
+    from ..finetune.checkpointing import latest
     from ..finetune.display import row_line
     from ..finetune.run import perform
-    from .training_display import Display
+    from .training_display import Display, advice
 
     display = Display(quiet)
     try:
         return perform(order, display.say, lambda row, plan: display.say(row_line(row, plan)))
     except KeyboardInterrupt:
-        print(_advice(order.run), file=sys.stderr)
+        print(advice(order.run, latest(order.run)), file=sys.stderr)
         raise
-
-
-def _advice(run: Path) -> str:
-    from ..finetune.checkpointing import latest
-
-    found = latest(run)
-    if found is None:
-        return f"{run} has no checkpoint yet: the same command begins again"
-    return f"{run} has a checkpoint, {found.name}: the same command with --resume goes on from it"
 
 
 def _tell(outcome: Outcome, json: bool) -> None:

@@ -105,23 +105,15 @@ def train_vqvae(
 
 
 def _performed(order: Order, plugins: Plugins, quiet: bool) -> Outcome:
-    from .training_display import Display
+    from ..training.checkpointing import latest
+    from .training_display import Display, advice
     from .training_run import perform
 
     try:
         return perform(order, plugins, Display(quiet))
     except KeyboardInterrupt:
-        print(_advice(order.run), file=sys.stderr)
+        print(advice(order.run, latest(order.run)), file=sys.stderr)
         raise
-
-
-def _advice(run: Path) -> str:
-    from ..training.checkpointing import latest
-
-    found = latest(run)
-    if found is None:
-        return f"{run} has no checkpoint yet: the same command begins again"
-    return f"{run} has a checkpoint, {found.name}: the same command with --resume goes on from it"
 
 
 def _tell(outcome: Outcome, run: Path, json: bool) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from datetime import timedelta
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -72,3 +73,10 @@ def judged(evaluation: Evaluation) -> str:
 
 def _clock(seconds: float) -> str:
     return str(timedelta(seconds=round(seconds)))
+
+
+def advice(run: Path, checkpoint: Path | None) -> str:
+    """What to do with a run that was stopped; `checkpoint` is its last one."""
+    if checkpoint is None:
+        return f"{run} has no checkpoint yet: the same command begins again"
+    return f"{run} has a checkpoint, {checkpoint.name}: the same command with --resume goes on from it"
