@@ -7,6 +7,7 @@ from pathlib import Path
 from simart_kit.findings import Finding, library, weights
 
 _CODEC = Path(__file__).parent / "weights" / "vq-nano"
+_SPEAKER = Path(__file__).parent / "weights" / "mllm-tiny"
 _LANGUAGE = ("transformers", "tokenizers", "accelerate", "peft")
 
 
@@ -17,5 +18,6 @@ def findings() -> list[Finding]:
         library("torch"),
         library("safetensors"),
         weights("weights of vq-nano", _CODEC, again),
+        weights("weights of mllm-tiny", _SPEAKER, again, stages=()),
         *(library(name, extra="mllm", stages=("simart",)) for name in _LANGUAGE),
     ]
