@@ -37,7 +37,9 @@ def overlaps(mesh: Mesh, true, said) -> list[float]:
     """For each true part the greatest overlap, by area, with a part that was found."""
     areas = mesh.face_areas
     return [
-        max(areas[(true == k) & (said == m)].sum() / areas[(true == k) | (said == m)].sum() for m in set(said))
+        max(
+            areas[(true == k) & (said == m)].sum() / areas[(true == k) | (said == m)].sum() for m in set(said)
+        )
         for k in set(true)
     ]
 
