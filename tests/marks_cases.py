@@ -5,18 +5,32 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Sequence
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 from pydantic import BaseModel
+from simart_kit_plugins.marks import axis_sheet, sheets, views
 from simart_kit_plugins.marks.lines import Line, Shape, shape_of, sliding_lines, turning_lines
 from simart_kit_plugins.vlm import Question, Reply, Usage
 
 from simart_kit.mesh import Mesh
 
+from .vlm_server import Asked
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.integer[Any]]
+
+
+def small_pictures(patch: pytest.MonkeyPatch) -> None:
+    """Make pictures of a few pixels: no model of these tests looks at them, and they take longest."""
+    for module in (sheets, axis_sheet):
+        patch.setattr(module, "PANEL", 40)
+    patch.setattr(sheets, "TILE", 32)
+    patch.setattr(views, "_LOOK", 24)
+    patch.setattr("simart_kit.drawing.preview.PANEL", (80, 64))
 
 
 class Scripted:
@@ -36,6 +50,13 @@ class Scripted:
         raw = json.dumps(self.answers[question.answer.__name__](question))
         value: BaseModel = question.answer.model_validate_json(raw)
         return Reply(value, Usage(1, 1000, 50), "scripted", raw)
+
+    def heard(self, asked: Asked) -> str:
+        """What it says to a question that came over HTTP: text of a JSON object."""
+        schema = json.loads(asked.system.rpartition("\n")[2])
+        answer = SimpleNamespace(model_json_schema=lambda: schema)
+        question: Any = SimpleNamespace(text=asked.text, answer=answer)
+        return json.dumps(self.answers[schema["title"]](question))
 
 
 class Knowing(Scripted):

@@ -4,7 +4,6 @@ import json
 
 import numpy as np
 import pytest
-from simart_kit_plugins.marks import axis_sheet, sheets
 from simart_kit_plugins.marks.predictor import VlmJoints
 from simart_kit_plugins.marks.segmenter import P3SamVlm
 from simart_kit_plugins.vlm.asking import Asking
@@ -20,10 +19,9 @@ from simart_kit.recipe import load_recipe, read_options
 from simart_kit.spec.protocols import segment_by
 from simart_kit.spec.values import Spec
 from simart_kit.stages import PartGuess, Segmentation
-from simart_kit.testing.contracts import SegmenterContract
 from simart_kit.testing.meshes import cabinet_asset
 
-from .marks_cases import Knowing, Scripted
+from .marks_cases import Knowing, Scripted, small_pictures
 
 PLUGINS = Plugins(installed=False)
 GEOMETRIC = {"proposer": {"use": "geometric"}}
@@ -40,10 +38,7 @@ PARTS = [
 
 @pytest.fixture(autouse=True)
 def _small(monkeypatch):
-    monkeypatch.setattr(sheets, "PANEL", 40)
-    monkeypatch.setattr(sheets, "TILE", 32)
-    monkeypatch.setattr(axis_sheet, "PANEL", 40)
-    monkeypatch.setattr("simart_kit.drawing.preview.PANEL", (80, 64))
+    small_pictures(monkeypatch)
 
 
 def stage(vlm, **options):
@@ -64,26 +59,11 @@ def knowing():
     return Knowing(ASSET.mesh, pieces(None), ASSET.face_part, PARTS)
 
 
-class TestP3SamVlm(SegmenterContract):
-    stage = P3SamVlm
-    invariant = False
-
-    def make(self):
-        def answer(question):
-            body = {"name": "body", "label": "", "pieces": [], "parent": "", "kind": "fixed"}
-            links = [{**body, "material": "wood", "confidence": 50}]
-            return {"category": "thing", "longest_side_m": 1, "links": links}
-
-        return stage(Scripted({"ObjectAnswer": answer}))
-
-
 @pytest.fixture(scope="module")
 def told():
     """What the model was asked, and the segmentation."""
     with pytest.MonkeyPatch.context() as patch:
-        for module, size in ((sheets, 40), (axis_sheet, 40)):
-            patch.setattr(module, "PANEL", size)
-        patch.setattr(sheets, "TILE", 32)
+        small_pictures(patch)
         vlm = knowing()
         return vlm, checked(stage(vlm).segment(ASSET.mesh), ASSET.mesh)
 

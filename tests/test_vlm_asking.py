@@ -268,6 +268,10 @@ def test_the_key_reaches_no_option_no_error_and_no_value():
     ("table", "told"),
     [
         ({"url": "http://me:word@host/v1"}, "SIMART_VLM_API_KEY"),
+        (
+            {"api_key": KEY},
+            "there is no option api_key: the key is read from the environment variable SIMART_",
+        ),
         ({"url": "localhost:8000"}, "give a URL such as"),
         ({"replay": True, "cache": "off"}, "replay takes answers from the cache, and cache is off"),
         ({"rate_limit": -1.0}, "greater than or equal to 0"),

@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import Literal, TypeVar
+from typing import Annotated, Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from simart_kit.asset import JointKind, clean_name
 from simart_kit.materials import DEFAULT_MATERIAL, MATERIALS
 
 T = TypeVar("T", bound=BaseModel)
+
+
+def _line(text: str) -> str:
+    """One line of letters: codes for a terminal must not come through to reports."""
+    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
+
+
+Spoken = Annotated[str, AfterValidator(_line)]
 
 
 class Answer(BaseModel):
@@ -23,7 +31,7 @@ class LinkAnswer(Answer):
     """A rigid link."""
 
     name: str = Field(min_length=1, max_length=60, description="Unique, such as upper_left_door.")
-    label: str = Field(max_length=60, description="What kind of thing it is, such as door or drawer.")
+    label: Spoken = Field(max_length=60, description="What kind of thing it is, such as door or drawer.")
     pieces: tuple[int, ...] = Field(description="Numbers of all pieces that move as one with it.")
     parent: str = Field(description='Name of the link that carries it; "" for the body.')
     kind: JointKind = Field(description="How it moves against its parent; fixed for the body.")
@@ -46,7 +54,7 @@ class LinkAnswer(Answer):
 class ObjectAnswer(Answer):
     """An object as links."""
 
-    category: str = Field(max_length=60, description="What the object is, such as cabinet.")
+    category: Spoken = Field(max_length=60, description="What the object is, such as cabinet.")
     longest_side_m: float = Field(
         gt=0, le=1000, description="Length of the real object's longest side [metres]."
     )
@@ -74,7 +82,7 @@ class Fault(Answer):
         "pieces: pieces are missing from it, and `add` names them."
     )
     add: tuple[int, ...] = Field(default=(), description="Pieces of this link that are in another.")
-    reason: str = Field(default="", max_length=300, description="What is wrong, in a few words.")
+    reason: Spoken = Field(default="", max_length=300, description="What is wrong, in a few words.")
 
 
 class CriticAnswer(Answer):

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from simart_kit import Mesh, Note, Segmenter
 from simart_kit.arrays import IntArray
 from simart_kit.assemble import checked
+from simart_kit.errors import BadInputError
 from simart_kit.plugins import Plugins
 from simart_kit.recipe import Use, build
 
@@ -48,11 +49,17 @@ def proposed(
 
     Raises:
         UnknownPluginError, RecipeError: there is no such segmenter, or it has no such options.
+        BadInputError: it cannot be run as it is set up.
         StageError: it failed.
     """
     stage, registration = build(Use(use=proposer.use, options=proposer.options), Segmenter, plugins, seed)
     try:
         found = checked(stage.segment(mesh), mesh)
+    except BadInputError as cause:
+        raise BadInputError(
+            f"proposer {proposer.use}: {cause} (its options are in segmenter.options.proposer.options; "
+            'any segmenter will do, such as --set segmenter.options.proposer={use="geometric"})'
+        ) from cause
     except Exception as cause:
         raise registration.failure(cause) from cause
     surface = found.mesh_of(mesh)
@@ -62,4 +69,6 @@ def proposed(
     both = both.reshape(-1)
     piece = numbered_pieces(surface, both, most, crease)
     told = f"{int(both.max()) + 1} pieces by {proposer.use}, {int(piece.max()) + 1} to number"
-    return Proposed(surface, piece, (*found.notes, Note("segment", "info", told)), cut=found.mesh is not None)
+    # What it says of parts is of its own, and not of the links that are made of them.
+    said = (replace(note, text=f"{proposer.use}: {note.text}") for note in found.notes)
+    return Proposed(surface, piece, (*said, Note("segment", "info", told)), cut=found.mesh is not None)

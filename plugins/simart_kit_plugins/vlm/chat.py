@@ -15,6 +15,7 @@ from .http import post, quoted
 from .values import Completion
 
 Message = dict[str, Any]
+_MOST_TOKENS = 1 << 40  # what a server tells beyond is no count
 
 
 def chat(endpoint: Endpoint, table: Mapping[str, Any], turn: Callable[[], None] = lambda: None) -> Completion:
@@ -73,4 +74,4 @@ def _writable(text: str) -> str:
 def _count(used: object, name: str) -> int:
     """A number of tokens; 0 where the server does not tell it."""
     found = used.get(name) if isinstance(used, dict) else None
-    return found if isinstance(found, int) and not isinstance(found, bool) and found > 0 else 0
+    return found if isinstance(found, int) and not isinstance(found, bool) and 0 < found < _MOST_TOKENS else 0

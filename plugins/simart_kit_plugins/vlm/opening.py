@@ -21,7 +21,7 @@ def open_vlm(options: VlmOptions) -> Vlm:
     if not options.model:
         raise BadInputError(
             "no vision-language model is named: set the option model to the name that the server lists under "
-            "/v1/models, or with backend transformers to a folder or hub id"
+            "/v1/models, and url to the server; or with backend transformers, model to a folder or hub id"
         )
     return vlm_of(None if options.replay else _speaker(options), options)
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal
+import re
+from typing import Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
@@ -10,6 +11,8 @@ import simart_kit
 
 from ..simart.mllm.placing import Dtype, Quantisation
 from .endpoint import KEY_VARIABLE, EndpointError, require_url
+
+_SECRETS = re.compile(r"key|token|secret|password|credential|auth|bearer", re.IGNORECASE)
 
 
 class VlmOptions(simart_kit.Options):
@@ -67,6 +70,19 @@ class VlmOptions(simart_kit.Options):
     allow_slow: bool = Field(
         default=False, description="For transformers: run a large model even on a CPU, which takes hours."
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _refuse_keys(cls, table: Any) -> Any:
+        """Refuse a key without showing it, as other unknown options are shown."""
+        names = [name for name in table if name not in cls.model_fields] if isinstance(table, dict) else []
+        secret = next((name for name in names if _SECRETS.search(str(name))), None)
+        if secret:
+            raise ValueError(
+                f"there is no option {secret}: the key is read from the environment variable {KEY_VARIABLE} "
+                "and nowhere else"
+            )
+        return table
 
     @field_validator("url")
     @classmethod
