@@ -61,6 +61,7 @@ SpecFile = Annotated[
         help="What moves, as you state it: a TOML or JSON file such as `simart-kit spec` writes.",
     ),
 ]
+Name = Annotated[str | None, typer.Option(metavar="NAME", help="Name of the asset; default: the file's.")]
 Floating = Annotated[
     bool, typer.Option("--floating", help="Leave the base free instead of fixed to the world.")
 ]
@@ -73,9 +74,7 @@ def convert(
     mesh: Annotated[Path, typer.Argument(metavar="MESH", help="Mesh file.")],
     recipe: RecipeName = "default",
     out: Out = None,
-    name: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Name of the asset; default: the file's.")
-    ] = None,
+    name: Name = None,
     sets: Sets = None,
     transfer: TransferMode = None,
     image: Photo = None,
@@ -93,10 +92,7 @@ def convert(
     verbose: Verbose = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but errors.")] = False,
 ) -> None:
-    """Turn a mesh file into an articulated asset.
-
-    It is written in every format of the recipe.
-    """
+    """Turn a mesh file into an articulated asset, written in every format of the recipe."""
     from ..pipeline import convert as run
     from .progress import progress
     from .shorthands import shorthand_sets
