@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import sys
@@ -29,7 +30,8 @@ def load_plugins(files: Sequence[Path] | None) -> Plugins:
     """All plugins; one that was asked for with `--plugin` and does not load is an error."""
     from ..plugins import Plugins
 
-    plugins = Plugins(files=files or ())
+    with uncollected():
+        plugins = Plugins(files=files or ())
     asked = {str(file) for file in files or ()}
     for failure in plugins.failures:
         if failure.owner.distribution in asked:
@@ -71,3 +73,15 @@ def stdout_kept(wanted: bool) -> Iterator[None]:
     finally:
         os.dup2(stdout, 1)
         os.close(stdout)
+
+
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """Leave out garbage collection where little is thrown away and many small objects would be searched."""
+    found = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if found:
+            gc.enable()

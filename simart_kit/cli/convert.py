@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Literal
 
 import typer
 
-from .common import load_plugins, print_json, stdout_kept, warn
+from .common import load_plugins, print_json, stdout_kept, uncollected, warn
 from .options import Json, PluginFiles, Sets, Verbose
 
 RecipeName = Annotated[
@@ -100,7 +97,7 @@ def convert(
 
     if verbose and quiet:
         raise typer.BadParameter("--verbose and --quiet exclude each other")
-    with stdout_kept(json), _uncollected():
+    with stdout_kept(json), uncollected():
         plugins = load_plugins(plugin)
         if not quiet:
             warn(f"plugin {failure}" for failure in plugins.failures)
@@ -128,13 +125,3 @@ def convert(
         print(text(result, verbose))
     if strict and not result.report.passed:
         raise typer.Exit(1)
-
-
-@contextmanager
-def _uncollected() -> Iterator[None]:
-    """Leave out garbage collection: a run is short, holds few cycles and many small objects to search."""
-    gc.disable()
-    try:
-        yield
-    finally:
-        gc.enable()
