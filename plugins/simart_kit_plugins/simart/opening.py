@@ -11,7 +11,8 @@ from pydantic import Field, field_validator
 import simart_kit
 from simart_kit.errors import BadInputError
 
-from .endpoint.values import EndpointError, endpoint_at, require_url
+from ..vlm.endpoint import optional_url
+from .endpoint.values import KEY_VARIABLE, endpoint_at
 from .mllm.placing import Dtype, Quantisation
 
 if TYPE_CHECKING:
@@ -44,12 +45,7 @@ class ModelOptions(simart_kit.Options):
     @classmethod
     def _check_endpoint(cls, url: str) -> str:
         """Refuse a password in the URL before it stands in a report or a recording."""
-        try:
-            if url:
-                require_url(url)
-        except EndpointError as error:
-            raise ValueError(str(error)) from error
-        return url
+        return optional_url(url, KEY_VARIABLE)
 
 
 def shipped_folder() -> Path:

@@ -90,6 +90,19 @@ def require_url(url: str, key_variable: str = KEY_VARIABLE) -> None:
         raise EndpointError(f"endpoint {url!r}: give a URL such as http://localhost:8000/v1")
 
 
+def optional_url(url: str, key_variable: str = KEY_VARIABLE) -> str:
+    """The URL of an option, which may be empty: refused with a ValueError, as validators want it.
+
+    So a password in it is refused before it stands in a report or a recording.
+    """
+    try:
+        if url:
+            require_url(url, key_variable)
+    except EndpointError as error:
+        raise ValueError(str(error)) from error
+    return url
+
+
 def key_of(variable: str) -> str:
     """The key that an environment variable holds, "" where it is not set.
 

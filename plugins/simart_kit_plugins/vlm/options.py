@@ -10,7 +10,7 @@ from pydantic import Field, field_validator, model_validator
 import simart_kit
 
 from ..simart.mllm.placing import Dtype, Quantisation
-from .endpoint import KEY_VARIABLE, EndpointError, require_url
+from .endpoint import KEY_VARIABLE, optional_url
 
 _SECRETS = re.compile(r"key|token|secret|password|credential|auth|bearer", re.IGNORECASE)
 
@@ -88,12 +88,7 @@ class VlmOptions(simart_kit.Options):
     @classmethod
     def _check_url(cls, url: str) -> str:
         """Refuse a password in the URL before it stands in a report or a recording."""
-        try:
-            if url:
-                require_url(url)
-        except EndpointError as error:
-            raise ValueError(str(error)) from error
-        return url
+        return optional_url(url)
 
     @model_validator(mode="after")
     def _check_replay(self) -> VlmOptions:
