@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,7 +13,11 @@ from .asset import Asset, Joint, Part, clean_name, unique_names
 from .evidence import check_evidence
 from .mesh import Mesh, Note
 from .physics import DEFAULT_MATERIAL, MATERIALS
-from .stages import PartGuess, Segmentation
+from .stages import PartGuess, Prediction, Segmentation
+
+if TYPE_CHECKING:
+    from .evidence import Evidence
+    from .usage import ModelUsage
 
 # How much bounds and area of a cut mesh may differ from the whole one, as a share.
 _SAME = 1e-5
@@ -83,6 +88,31 @@ def _check_surface(cut: Mesh, given: Mesh) -> None:
 
 def _has(mesh: Mesh, name: str) -> bool:
     return getattr(mesh, name) is not None
+
+
+@dataclass(frozen=True, eq=False)
+class Articulation:
+    """What the joints stage leaves.
+
+    Attributes:
+        asset: the parts with their joints.
+        evidence: how the joints came about, for the recording.
+        usage: what that took of models that were asked.
+    """
+
+    asset: Asset
+    evidence: tuple[Evidence, ...] = ()
+    usage: tuple[ModelUsage, ...] = ()
+
+
+def articulation(asset: Asset, said: Prediction) -> Articulation:
+    """An assembled asset with what its joint predictor tells beside its joints.
+
+    Raises:
+        ValueError: evidence that is not of the asset's mesh.
+    """
+    check_evidence(said.evidence, len(asset.mesh.vertices))
+    return Articulation(replace(asset, notes=asset.notes + said.notes), said.evidence, said.usage)
 
 
 def assemble(

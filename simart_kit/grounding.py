@@ -21,6 +21,7 @@ from .plugins import Plugins, Registration
 from .recipe import build, load_recipe
 from .stages import Segmentation, Segmenter
 from .timeout import time_limit
+from .usage import ModelUsage
 
 T = TypeVar("T")
 
@@ -54,6 +55,7 @@ class Grounded:
         face_candidate: (F,) index into `candidates` of each face, -1 for none; None where there are none.
         mesh: the mesh that `faces` is of, where faces had to be cut; None: the mesh that was given.
         notes: what was decided on the way.
+        usage: what it took of models that were asked, for provenance.
     """
 
     faces: BoolArray
@@ -63,6 +65,7 @@ class Grounded:
     face_candidate: IntArray | None = None
     mesh: Mesh | None = None
     notes: tuple[Note, ...] = ()
+    usage: tuple[ModelUsage, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "faces", frozen_bools(self.faces))
@@ -207,6 +210,7 @@ def by_names(segmentation: Segmentation, given: Mesh, description: str) -> Groun
         face_candidate=segmentation.face_part,
         mesh=segmentation.mesh,
         notes=segmentation.notes,
+        usage=segmentation.usage,
     )
 
 

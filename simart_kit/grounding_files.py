@@ -73,6 +73,7 @@ def write_grounding(found: Grounding, origin: Origin, plugins: Plugins, out: Pat
             outputs=hashes(work),
             earlier_outputs=earlier,
             seconds=(),
+            usage=[("segment", origin.segmenter.name, used) for used in found.grounded.usage],
             arguments=origin.arguments,
         )
         write_json(work / PROVENANCE, record)

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from .assemble import assemble, checked
-from .asset import Asset, Joint, clean_name
+from .assemble import Articulation, articulation, assemble, checked
+from .asset import Asset, clean_name
 from .asset_io import save_asset
 from .checks import run_checks
 from .checks.subject import Subject
@@ -26,12 +26,12 @@ from .recipe import Recipe, build, build_checks, load_recipe
 from .report import Report
 from .runner import Run, Runner
 from .spec.moving import with_joints
-from .spec.protocols import predict_by, segment_by
+from .spec.protocols import prediction_by, segment_by
 from .spec.reading import read_spec
 from .spec.shaping import with_parts
 from .spec.values import Spec
 from .spec.verdicts import with_verdicts
-from .stages import JointPredictor, Modifier, Segmentation, Segmenter
+from .stages import JointPredictor, Modifier, Prediction, Segmentation, Segmenter
 
 
 @dataclass(frozen=True)
@@ -140,19 +140,19 @@ def _articulate(
     floating: bool,
     spec: Spec | None,
 ) -> Asset:
-    def assembled(joints: tuple[Joint, ...]) -> Asset:
-        joints = joints if spec is None else with_joints(joints, segmentation, loaded.mesh, spec)
+    def assembled(said: Prediction) -> Articulation:
+        joints = said.joints if spec is None else with_joints(said.joints, segmentation, loaded.mesh, spec)
         asset = assemble(name, loaded.mesh, segmentation, joints, loaded.asset_from_source, floating)
-        return overridden(asset, recipe.physics)
+        return articulation(overridden(asset, recipe.physics), said)
 
     if loaded.stated is not None:
-        return runner.call("joints", "stated", assembled, segmentation.joints or ())
+        return runner.call("joints", "stated", assembled, Prediction(segmentation.joints or ())).asset
     stage, registration = build(recipe.joints, JointPredictor, plugins, recipe.seed)
 
-    def predicted(segmentation: Segmentation) -> Asset:
-        return assembled(predict_by(stage, segmentation.mesh_of(loaded.mesh), segmentation, spec))
+    def predicted(segmentation: Segmentation) -> Articulation:
+        return assembled(prediction_by(stage, segmentation.mesh_of(loaded.mesh), segmentation, spec))
 
-    return runner.stage("joints", registration, predicted, segmentation)
+    return runner.stage("joints", registration, predicted, segmentation).asset
 
 
 def _modify(runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset, stated: bool) -> Asset:
@@ -208,6 +208,7 @@ def _finish(
         outputs=hashes(run.folder),
         earlier_outputs=earlier,
         seconds=runner.seconds,
+        usage=runner.usage,
         arguments=arguments,
     )
     write_json(run.folder / PROVENANCE, record)

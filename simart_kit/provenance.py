@@ -13,6 +13,7 @@ from typing import Any
 
 from .plugins import Failure, Registration
 from .recipe import Recipe
+from .usage import ModelUsage
 
 
 def provenance(
@@ -25,6 +26,7 @@ def provenance(
     outputs: Mapping[str, str],
     earlier_outputs: Mapping[str, str],
     seconds: Iterable[tuple[str, str, float]],
+    usage: Iterable[tuple[str, str, ModelUsage]],
     arguments: Mapping[str, Any],
 ) -> dict[str, Any]:
     """The record as plain values; `recipe` in it is a valid recipe that repeats the run."""
@@ -48,6 +50,8 @@ def provenance(
         ],
         "plugin_failures": [str(f) for f in failures],
         "seconds": [{"stage": stage, "name": name, "seconds": round(s, 4)} for stage, name, s in seconds],
+        # Tokens and money that models took which a stage asked; of answers of a cache, neither.
+        "models": [{"stage": stage, "name": name} | used.table() for stage, name, used in usage],
         "outputs": dict(outputs),
         # Files that earlier runs left in the folder and this run did not write: not of this asset.
         "earlier_outputs": dict(earlier_outputs),

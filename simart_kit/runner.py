@@ -8,14 +8,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
+from .assemble import Articulation
 from .asset_io import save_value
 from .errors import StageError
 from .mesh import Note
 from .plugins import Plugins, Registration
+from .stages import Segmentation
 from .timeout import time_limit
 
 if TYPE_CHECKING:
     from .recipe import Recipe
+    from .usage import ModelUsage
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -47,6 +50,7 @@ class Runner:
         run: what it works on.
         seconds: (stage, name, wall time) of each finished stage.
         used: registrations of the stages that ran.
+        usage: (stage, name, what it took of a model) of each stage that asked one.
         notes: observers that failed; they never stop a run.
     """
 
@@ -54,6 +58,7 @@ class Runner:
         self.run = run
         self.seconds: tuple[tuple[str, str, float], ...] = ()
         self.used: tuple[Registration, ...] = ()
+        self.usage: tuple[tuple[str, str, ModelUsage], ...] = ()
         self.notes: tuple[Note, ...] = ()
         self._plugins = plugins
 
@@ -104,4 +109,6 @@ class Runner:
 
     def _finished(self, stage: str, name: str, value: object, seconds: float) -> None:
         self.seconds += ((stage, name, seconds),)
+        if isinstance(value, Segmentation | Articulation):
+            self.usage += tuple((stage, name, used) for used in value.usage)
         self.tell("stage_finished", stage=stage, name=name, value=value, seconds=seconds)

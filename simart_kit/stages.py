@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .evidence import Evidence
     from .mesh import Mesh, Note
     from .plugins import Plugins
+    from .usage import ModelUsage
 
 
 class Options(BaseModel):
@@ -100,6 +101,7 @@ class Segmentation:
         notes: what was decided, for the report.
         evidence: how it came about, for the recording: each piece gets a view of its name. Values at
             vertices are those of the mesh that `face_part` is of.
+        usage: what it took of models that were asked, for provenance.
         mesh: the mesh that `face_part` is of, where faces had to be cut; None: the mesh that was given.
     """
 
@@ -109,11 +111,29 @@ class Segmentation:
     face_segment: IntArray | None = None
     notes: tuple[Note, ...] = ()
     evidence: tuple[Evidence, ...] = ()
+    usage: tuple[ModelUsage, ...] = ()
     mesh: Mesh | None = None
 
     def mesh_of(self, given: Mesh) -> Mesh:
         """The mesh that `face_part` is of: the `given` one, unless faces had to be cut."""
         return given if self.mesh is None else self.mesh
+
+
+@dataclass(frozen=True, eq=False)
+class Prediction:
+    """Joints, and how a predictor came to them.
+
+    Attributes:
+        joints: between parts, by their names.
+        notes: what was decided, for the report.
+        evidence: for the recording; see `Segmentation.evidence`, whose names it must not repeat.
+        usage: what it took of models that were asked, for provenance.
+    """
+
+    joints: tuple[Joint, ...]
+    notes: tuple[Note, ...] = ()
+    evidence: tuple[Evidence, ...] = ()
+    usage: tuple[ModelUsage, ...] = ()
 
 
 class Segmenter(Stage):

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from simart_kit_plugins.recorder import Recorder
 
+from simart_kit.assemble import Articulation
 from simart_kit.asset import Limits
 from simart_kit.checks import CheckResult
 from simart_kit.loading import Source
@@ -71,7 +72,7 @@ def told(asset, run, recorder, stages=("load", "segment", "joints", "modify", "c
     values = {
         "load": ("glb", source_of(asset)),
         "segment": ("geometric", segmentation_of(asset)),
-        "joints": ("geometric", before_snap(asset)),
+        "joints": ("geometric", Articulation(before_snap(asset))),
         "modify": ("snap", asset.with_notes("snap", "info", ["the hinge now lies on the edge"])),
         "check": ("checks", CHECKS),
     }

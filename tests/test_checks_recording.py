@@ -10,6 +10,7 @@ import pytest
 from simart_kit_plugins.recorder import Recorder
 
 from simart_kit import CheckResult, Subject
+from simart_kit.assemble import Articulation
 from simart_kit.asset import Asset
 from simart_kit.checks import Fault
 from simart_kit.kinematics import rest_to_posed
@@ -26,7 +27,7 @@ def recorded(asset: Asset, checks: tuple[CheckResult, ...], folder: Path) -> Pat
     for stage, name, value in (
         ("load", "glb", source_of(asset)),
         ("segment", "geometric", segmentation_of(asset)),
-        ("joints", "geometric", before_snap(asset)),
+        ("joints", "geometric", Articulation(before_snap(asset))),
         ("modify", "snap", asset),
         ("check", "checks", checks),
     ):

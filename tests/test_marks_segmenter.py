@@ -16,10 +16,11 @@ from simart_kit.grounding import Grounder
 from simart_kit.mesh import Mesh
 from simart_kit.plugins import Plugins
 from simart_kit.recipe import load_recipe, read_options
-from simart_kit.spec.protocols import segment_by
+from simart_kit.spec.protocols import prediction_by, segment_by
 from simart_kit.spec.values import Spec
 from simart_kit.stages import PartGuess, Segmentation
 from simart_kit.testing.meshes import cabinet_asset
+from simart_kit.usage import ModelUsage
 
 from .marks_cases import Knowing, Scripted, small_pictures
 
@@ -198,7 +199,14 @@ def test_grounding_without_a_yes_takes_the_surest_partly(belongs, count):
 def test_the_predictor_moves_the_parts_of_any_segmenter():
     found = Segmentation(ASSET.face_part, tuple(PartGuess(part.name) for part in ASSET.parts))
     vlm = Knowing(ASSET.mesh, ASSET.face_part, ASSET.face_part, PARTS)
-    joints = VlmJoints(vlm=vlm).predict(ASSET.mesh, found)
+    said = prediction_by(VlmJoints(vlm=vlm), ASSET.mesh, found, None)
+    shown = [piece.pixels for piece in said.evidence if isinstance(piece, PictureEvidence)]
+    sent = [picture for question in vlm.asked for picture in question.pictures]
+    assert all(map(np.array_equal, shown, sent))
+    assert len(shown) == len(sent) > 0
+    assert VlmJoints(vlm=vlm).predict(ASSET.mesh, found) == said.joints
+    assert said.usage == (ModelUsage("scripted", 3, 0, 3, 3000, 150),)
+    joints = said.joints
     for mine, true in zip(joints, ASSET.joints, strict=True):
         assert (mine.child, mine.kind) == (true.child, true.kind)
         assert opening(mine) == pytest.approx(opening(true))

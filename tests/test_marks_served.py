@@ -134,6 +134,20 @@ def test_prose_around_the_json_is_left_out(home, quick):
     assert len(served.asked) == 2
 
 
+def test_what_the_model_took_is_in_provenance(home, quick):
+    prices = {"price_in": 2.0, "price_out": 10.0}
+    with model(right) as served:
+        sk.convert("crate.glb", "p3sam-vlm", out="made", sets=asking(served.url, **prices), record=False)
+        sk.convert("crate.glb", "p3sam-vlm", out="again", sets=asking(served.url, **prices), record=False)
+    (took,), (kept,) = (
+        json.loads((home / f / "provenance.json").read_text())["models"] for f in ("made", "again")
+    )
+    # Two answers of 100 tokens read and 20 written each, at 2 and 10 a million.
+    whose = {"stage": "segment", "name": "p3sam-vlm", "model": "Qwen3-VL", "answers": 2}
+    assert took == whose | {"cached": 0, "calls": 2, "input_tokens": 200, "output_tokens": 40, "cost": 8e-4}
+    assert kept == whose | {"cached": 2, "calls": 0, "input_tokens": 0, "output_tokens": 0, "cost": 0.0}
+
+
 BAD = "two answers could not be used: "
 FAULTS = {
     "silent": ([silent], r"no reply within 0\.3 s: raise timeout \(2 times\)", 2),

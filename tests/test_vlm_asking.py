@@ -14,6 +14,7 @@ from simart_kit_plugins.vlm.pacing import Pace
 
 from simart_kit import Note
 from simart_kit.errors import BadInputError
+from simart_kit.usage import ModelUsage
 
 from .endpoint_cases import serving, status
 from .vlm_server import KEY, asked, client, options_for, played, said
@@ -231,7 +232,7 @@ def test_retries_keep_their_distance_too():
 def test_what_answers_took_is_summed_and_told():
     options = VlmOptions(model="Qwen3-VL", price_in=0.5, price_out=2.0)
     ledger = Ledger()
-    assert ledger.notes("segment", options) == ()
+    assert ledger.notes("segment", options) == ledger.usage(options) == ()
     fresh = Reply(Count(doors=1), Usage(2, 250_000, 28_000), "Qwen3-VL", "", ("asked twice",))
     kept = replace(fresh, usage=Usage(1, 10**7, 10**7, cached=True))
     ledger = ledger.plus(fresh).plus(kept).plus(fresh)
@@ -242,6 +243,7 @@ def test_what_answers_took_is_summed_and_told():
         "vision-language model Qwen3-VL, answers: 3, 1 from the cache; calls: 4, 500000 tokens read, "
         "56000 written, cost 0.362 at the given prices"
     )
+    assert ledger.usage(options) == (ModelUsage("Qwen3-VL", 3, 1, 4, 500_000, 56_000, ledger.cost(options)),)
     assert ledger.notes("segment", options) == (
         Note("segment", "info", told),
         Note("segment", "info", "asked twice"),
@@ -251,7 +253,9 @@ def test_what_answers_took_is_summed_and_told():
 def test_a_server_that_does_not_count_tokens_is_no_reason_to_invent_them():
     reply, _ = answered(said(GOOD, tokens=None))
     assert reply.usage == Usage(1, 0, 0)
-    (note,) = Ledger().plus(reply).notes("segment", VlmOptions(price_in=1.0))
+    priced = VlmOptions(price_in=1.0)
+    assert Ledger().plus(reply).usage(priced) == (ModelUsage("Qwen3-VL", 1, 0, 1, None, None, None),)
+    (note,) = Ledger().plus(reply).notes("segment", priced)
     assert note.text.endswith("calls: 1, tokens not told by the server")
 
 

@@ -1,4 +1,4 @@
-"""Stages that take a spec in: they choose among their own candidates; the core sees to the rest."""
+"""What a stage may do beyond its one method: take a spec in, and tell how it came to its joints."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Protocol, runtime_checkable
 
 from ..asset import Joint
 from ..mesh import Mesh
-from ..stages import JointPredictor, Segmentation, Segmenter
+from ..stages import JointPredictor, Prediction, Segmentation, Segmenter
 from .values import Spec
 
 
@@ -26,6 +26,14 @@ class SpecPredictor(Protocol):
         """What `predict` says where that is as stated, else what comes nearest to it."""
 
 
+@runtime_checkable
+class TellingPredictor(Protocol):
+    """A joint predictor that has notes, evidence or usage beside its joints."""
+
+    def prediction(self, mesh: Mesh, segmentation: Segmentation, spec: Spec | None) -> Prediction:
+        """What `predict` says, or `predict_to` where there is a spec, and how it came about."""
+
+
 def segment_by(stage: Segmenter, mesh: Mesh, spec: Spec | None) -> Segmentation:
     """What a segmenter says, and of a spec if it takes one in."""
     if spec is not None and isinstance(stage, SpecSegmenter):
@@ -40,3 +48,12 @@ def predict_by(
     if spec is not None and isinstance(stage, SpecPredictor):
         return stage.predict_to(mesh, segmentation, spec)
     return stage.predict(mesh, segmentation)
+
+
+def prediction_by(
+    stage: JointPredictor, mesh: Mesh, segmentation: Segmentation, spec: Spec | None
+) -> Prediction:
+    """What a joint predictor says, and how it came to it if it tells."""
+    if isinstance(stage, TellingPredictor):
+        return stage.prediction(mesh, segmentation, spec)
+    return Prediction(predict_by(stage, mesh, segmentation, spec))

@@ -66,6 +66,7 @@ def articulated(talk: Talk, found: Proposed, rounds: int, wishes: str = "") -> S
         face_segment=found.piece,
         notes=(*found.notes, *grouped.notes, *state.notes, *talk.notes()),
         evidence=talk.evidence,
+        usage=talk.usage(),
         mesh=found.mesh if found.cut else None,
     )
 

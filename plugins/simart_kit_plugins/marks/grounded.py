@@ -44,6 +44,7 @@ def grounded(talk: Talk, found: Proposed, description: str) -> Grounded:
         face_candidate=seen.piece,
         mesh=found.mesh if found.cut else None,
         notes=(*found.notes, *talk.notes()),
+        usage=talk.usage(),
     )
 
 

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from simart_kit import Mesh
     from simart_kit.asset import Joint
     from simart_kit.spec.values import Spec
+    from simart_kit.stages import Prediction
 
     from ..vlm import Vlm
 
@@ -42,13 +43,20 @@ class VlmJoints(JointPredictor):
         Raises:
             BadInputError: the model cannot be asked, or gives no usable answer.
         """
-        return self._predicted(mesh, segmentation, None)
+        return self.prediction(mesh, segmentation, None).joints
 
     def predict_to(self, mesh: Mesh, segmentation: Segmentation, spec: Spec) -> tuple[Joint, ...]:
         """As `predict`, the model being told what a person states; errors are the same."""
-        return self._predicted(mesh, segmentation, spec)
+        return self.prediction(mesh, segmentation, spec).joints
 
-    def _predicted(self, mesh: Mesh, segmentation: Segmentation, spec: Spec | None) -> tuple[Joint, ...]:
+    def prediction(self, mesh: Mesh, segmentation: Segmentation, spec: Spec | None) -> Prediction:
+        """The joints, the questions with their pictures and answers, and what these took.
+
+        Raises:
+            BadInputError: the model cannot be asked, or gives no usable answer.
+        """
+        from simart_kit.stages import Prediction
+
         from ..vlm import open_vlm
         from .prompts import SYSTEM
         from .talk import Talk
@@ -56,7 +64,8 @@ class VlmJoints(JointPredictor):
         from .wishes import wishes_text
 
         if len(segmentation.parts) == 1:
-            return ()
+            return Prediction(())
         talk = Talk(self._vlm or open_vlm(self.options), SYSTEM, self.options)
         names = tuple(part.name for part in segmentation.parts)
-        return part_joints(talk, mesh, segmentation.face_part, names, wishes_text(spec))
+        joints = part_joints(talk, mesh, segmentation.face_part, names, wishes_text(spec))
+        return Prediction(joints, talk.notes("joints"), talk.evidence, talk.usage())

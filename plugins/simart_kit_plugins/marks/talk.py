@@ -14,6 +14,7 @@ from ..vlm import Ledger, Question
 
 if TYPE_CHECKING:
     from simart_kit.arrays import ByteArray
+    from simart_kit.usage import ModelUsage
 
     from ..vlm import Reply, Vlm, VlmOptions
 
@@ -69,9 +70,13 @@ class Talk:
         """Pictures, questions and answers so far."""
         return tuple(self._evidence)
 
-    def notes(self) -> tuple[Note, ...]:
-        """Who was asked, and what that took."""
-        return self._ledger.notes("segment", self._options)
+    def notes(self, stage: str = "segment") -> tuple[Note, ...]:
+        """Who was asked by a stage, and what that took."""
+        return self._ledger.notes(stage, self._options)
+
+    def usage(self) -> tuple[ModelUsage, ...]:
+        """The same, for provenance."""
+        return self._ledger.usage(self._options)
 
 
 def _told(question: Question, reply: Reply) -> str:

@@ -107,7 +107,7 @@ def _evidence_views(history: History) -> list[Any]:
     if history.source is None or history.segmentation is None:
         return []
     bounds = history.source.mesh.bounds
-    views = evidence_views(history.segmentation.evidence)
+    views = evidence_views(history.evidence)
     words = [_text(view.origin, view.name) for view in views if view.kind == "words"]
     seen = [_evidence_view(view, bounds) for view in views if view.kind != "words"]
     return [*seen, rrb.Tabs(*words, name="Words")] if words else seen

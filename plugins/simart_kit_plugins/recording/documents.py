@@ -5,6 +5,7 @@ from __future__ import annotations
 import traceback
 from collections.abc import Iterable, Sequence
 
+from simart_kit.assemble import Articulation
 from simart_kit.asset import Asset, Joint
 from simart_kit.loading import Source
 from simart_kit.recipe import Recipe
@@ -92,6 +93,7 @@ def describe(value: object) -> str:
         return f"A {look} mesh of {len(mesh.faces)} faces, {len(mesh.vertices)} vertices, {size} m."
     if isinstance(value, Segmentation):
         return f"A mesh in {len(value.parts)} parts: {', '.join(p.name for p in value.parts)}."
+    value = value.asset if isinstance(value, Articulation) else value
     if isinstance(value, Asset):
         size = " x ".join(f"{v:.3g}" for v in value.mesh.bounds[1] - value.mesh.bounds[0])
         parts, moving = len(value.parts), sum(j.moves for j in value.joints)

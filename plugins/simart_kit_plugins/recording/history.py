@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeVar
 
+from simart_kit.assemble import Articulation
 from simart_kit.asset import Asset, clean_name, unique_names
 from simart_kit.checks import CheckResult
+from simart_kit.evidence import Evidence
 from simart_kit.loading import Source
 from simart_kit.recipe import Recipe
 from simart_kit.report import Report
@@ -84,12 +86,19 @@ class History:
     @property
     def asset(self) -> Asset | None:
         """The asset as the last stage left it."""
-        return self._last(Asset)
+        return self._last(Asset) or self.predicted
 
     @property
     def predicted(self) -> Asset | None:
         """The asset before the first modifier."""
-        return next((e.value for e in self.events if isinstance(e.value, Asset)), None)
+        found = self._last(Articulation)
+        return found.asset if found else None
+
+    @property
+    def evidence(self) -> tuple[Evidence, ...]:
+        """How parts and joints came about."""
+        parts, joints = self.segmentation, self._last(Articulation)
+        return (parts.evidence if parts else ()) + (joints.evidence if joints else ())
 
     @property
     def steps(self) -> tuple[Step, ...]:

@@ -59,7 +59,7 @@ def _log_stages(tape: Tape, history: History, source: Source, mesh: Mesh) -> Non
         log_parts(tape, labelled, segmentation)
         if segmentation.face_segment is not None:
             log_segments(tape, labelled, segmentation.face_segment)
-        log_evidence(tape, segmentation.mesh_of(source.mesh), labelled, segmentation.evidence)
+        log_evidence(tape, segmentation.mesh_of(source.mesh), labelled, history.evidence)
 
 
 def _labelled(history: History, source: Source, shaded: Mesh) -> Mesh:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from simart_kit.mesh import Note
+from simart_kit.usage import ModelUsage
 
 from .options import VlmOptions
 from .values import Reply
@@ -51,6 +52,24 @@ class Ledger:
         """What the tokens cost at the prices of the options, in their currency."""
         read, written = self.input_tokens * options.price_in, self.output_tokens * options.price_out
         return (read + written) / _MILLION
+
+    def usage(self, options: VlmOptions) -> tuple[ModelUsage, ...]:
+        """What provenance should say of it; nothing where nothing was asked."""
+        if not self.answers:
+            return ()
+        told = not self.calls or self.input_tokens + self.output_tokens > 0
+        priced = told and bool(options.price_in or options.price_out)
+        return (
+            ModelUsage(
+                self.model,
+                self.answers,
+                self.cached,
+                self.calls,
+                self.input_tokens if told else None,
+                self.output_tokens if told else None,
+                self.cost(options) if priced else None,
+            ),
+        )
 
     def notes(self, stage: str, options: VlmOptions) -> tuple[Note, ...]:
         """What a report should say of it; nothing where nothing was asked."""
