@@ -71,10 +71,39 @@ def test_a_proposer_follows_the_prompt_from_a_coordinate_on() -> None:
     assert proposer.propose([50, 99, 98]) == []
     assert proposer.propose([7]) == []
     assert proposer.propose([]) == []
-    proposer.learn(0)
-    assert proposer.propose([50]) == [7]
-    proposer.learn(1)
-    assert proposer.propose([50]) == [7, 1, 51]
+
+
+def test_a_proposer_leaves_out_what_is_never_the_prompts() -> None:
+    """A model that names the prompt's cells in their order, with codes of its own."""
+    prompt = [token for cell in range(30) for token in (1, 50 + cell, 7)]
+    proposer = Proposer(prompt, range(50, 80))
+    wasted = []
+    for cell in range(29):
+        after_coordinate = proposer.propose([1, 50 + cell])
+        if after_coordinate:
+            assert after_coordinate[0] == 7
+            proposer.learn(0, len(after_coordinate))
+        after_code = proposer.propose([50 + cell, 9])
+        assert after_code[:2] == [1, 51 + cell]
+        proposer.learn(2, len(after_code))
+        wasted.append(len(after_coordinate) + len(after_code) - 2)
+    assert sum(wasted[:5]) > 20  # at first it takes the codes for the prompt's
+    assert sum(wasted[-10:]) <= 6  # later it tries a code now and then
+
+
+def test_a_proposer_comes_back_to_codes_that_are_the_prompts_again() -> None:
+    prompt = [token for cell in range(60) for token in (1, 50 + cell, 7)]
+    proposer = Proposer(prompt, range(50, 110))
+    for cell in range(10):
+        if proposed := proposer.propose([1, 50 + cell]):
+            proposer.learn(0, len(proposed))
+    lengths = []
+    for cell in range(10, 50):
+        proposed = proposer.propose([1, 50 + cell])
+        proposer.learn(len(proposed), len(proposed))
+        lengths.append(len(proposed))
+    assert lengths[0] <= 1
+    assert lengths[-1] == 24
 
 
 @pytest.mark.slow

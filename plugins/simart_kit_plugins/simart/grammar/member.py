@@ -89,7 +89,7 @@ class Member:
             if self._proposer is None:
                 break
         if self._proposer is not None and self.proposed:
-            self._proposer.learn(accepted)
+            self._proposer.learn(accepted, len(self.proposed))
         return len(self.proposed) - accepted
 
     def next_run(self) -> list[int]:
