@@ -154,6 +154,9 @@ def test_a_finished_data_set_is_left_as_it_is_and_other_options_are_refused(tmp_
         with pytest.raises(BadInputError, match=told):
             built(out, jobs, states=states)
     assert files(out) == before
+    (out / "shard-000000.tar").unlink()
+    with pytest.raises(BadInputError, match=r"shard-000000\.tar is missing or was changed"):
+        built(out, few(["chest"], 8))
 
 
 @pytest.mark.usefixtures("quick")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Sequence
 from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, ValidationError
@@ -50,10 +51,7 @@ def begun(out: Path, options: BuildOptions) -> Progress:
             f"{path} is damaged: {first_line(error)}; remove {out} and start again"
         ) from error
     check_same(out, progress.options, options)
-    for shard in progress.shards:
-        file = out / shard.file
-        if not file.is_file() or file.stat().st_size != shard.bytes:
-            raise BadInputError(f"{file} is missing or was changed: remove {out} and start again")
+    _check_files(out, progress.shards)
     return progress
 
 
@@ -63,10 +61,16 @@ def saved(out: Path, progress: Progress) -> None:
 
 
 def finished(out: Path, options: BuildOptions) -> bool:
-    """Whether a folder holds these records already; raises BadInputError where it holds others."""
+    """Whether a folder holds these records already.
+
+    Raises:
+        BadInputError: it holds others, or a shard is missing or was changed.
+    """
     if not (out / MANIFEST).exists():
         return False
-    check_same(out, read_manifest(out).options, options)
+    manifest = read_manifest(out)
+    check_same(out, manifest.options, options)
+    _check_files(out, manifest.shards)
     shutil.rmtree(out / FOLDER, ignore_errors=True)  # of a run that was killed as it tidied up
     return True
 
@@ -80,6 +84,13 @@ def check_same(out: Path, there: BuildOptions, asked: BuildOptions) -> None:
                 f"{out} holds records made with {field.description} {_told(old)}, not {_told(new)}: "
                 "give the same options to go on, or choose another folder"
             )
+
+
+def _check_files(out: Path, shards: Sequence[Shard]) -> None:
+    for shard in shards:
+        file = out / shard.file
+        if not file.is_file() or file.stat().st_size != shard.bytes:
+            raise BadInputError(f"{file} is missing or was changed: remove {out} and start again")
 
 
 def _told(value: object) -> str:
