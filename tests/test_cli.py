@@ -1,15 +1,11 @@
 """The command line: what it prints, on which stream, and with which exit code."""
 
 import json
-import os
 import re
-import resource
 import signal
-import subprocess
 import sys
 import time
 from importlib.metadata import EntryPoint
-from io import StringIO
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -17,101 +13,14 @@ import pytest
 
 from simart_kit.asset_io import save_asset
 from simart_kit.cli.main import run
-from simart_kit.cli.progress import Bar, steps
-from simart_kit.plugins import Plugins
-from simart_kit.recipe import load_recipe
 from simart_kit.testing.meshes import cabinet_asset, static_asset
 
-FAKES = '''
-import os, time
-import numpy as np
-from pydantic import Field
-import simart_kit as sk
-from simart_kit.testing.meshes import cabinet_asset, cabinet_mesh
-
-class Labels(sk.Segmenter):
-    """Labels a cabinet.
-
-    Knows one cabinet only.
-    """
-    name = "labels"
-    class Options(sk.Options):
-        fault: str = Field(default="", description="What goes wrong.")
-    options: Options
-    def segment(self, mesh):
-        print("noise from python")
-        os.write(1, b"noise from native code\\n")
-        if self.options.fault == "hang":
-            time.sleep(60)
-        if self.options.fault == "raise":
-            raise RuntimeError("out of ideas")
-        if self.options.fault == "interrupt":
-            raise KeyboardInterrupt
-        names = ("body", "door", "drawer")
-        return sk.Segmentation(np.repeat([0, 1, 2], [60, 24, 24]), tuple(map(sk.PartGuess, names)))
-
-class Joints(sk.JointPredictor):
-    name = "joints"
-    def predict(self, mesh, segmentation):
-        return cabinet_asset().joints
-
-class Text(sk.Exporter):
-    name = "text"
-    def export(self, asset, directory):
-        (directory / "main.txt").write_text(str([j.limits for j in asset.joints]))
-        return directory / "main.txt"
-
-@sk.hookimpl
-def register_segmenters(register):
-    register(Labels)
-
-@sk.hookimpl
-def register_joint_predictors(register):
-    register(Joints)
-
-@sk.hookimpl
-def register_exporters(register):
-    register(Text)
-
-@sk.hookimpl
-def load_mesh(path):
-    return cabinet_mesh(textured=False) if path.suffix == ".fake" else None
-'''
-RECIPE = """
-schema = 1
-description = "for tests"
-modify = []
-[segmenter]
-use = "labels"
-[joints]
-use = "joints"
-[[export]]
-use = "text"
-"""
+from .cli_home import CONVERT, finish, furnished, process
 
 
 @pytest.fixture
 def home(tmp_path, monkeypatch) -> Path:
-    """A working folder with a source, a recipe and a plugin file."""
-    # Real pictures take seconds and have their own tests.
-    monkeypatch.setattr("simart_kit.render.write_preview", lambda asset, path: path.write_bytes(b"picture"))
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "cupboard.fake").write_text("cabinet")
-    (tmp_path / "recipe.toml").write_text(RECIPE)
-    (tmp_path / "fakes.py").write_text(FAKES)
-    return tmp_path
-
-
-CONVERT = ["convert", "cupboard.fake", "--recipe", "recipe.toml", "--plugin", "fakes.py", "--no-record"]
-
-
-def process(*arguments: str, **options) -> subprocess.Popen:
-    # Start-up is measured as users meet it: with compiled modules kept.
-    environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
-    command = [sys.executable, "-m", "simart_kit", *arguments]
-    return subprocess.Popen(
-        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options
-    )
+    return furnished(tmp_path, monkeypatch)
 
 
 def test_convert_tells_what_was_found_and_where_it_is(home, capfd):
@@ -377,113 +286,3 @@ def test_inspect_opens_the_viewer_on_the_recording(home, monkeypatch, place):
 
     assert run(["inspect", str(home)]) == 0
     assert called[0][-1] == str(home / place / "cupboard.rrd")
-
-
-def test_recipes_are_listed_shown_and_checked(home, capfd):
-    assert run(["recipes", "list"]) == 0
-    listed = {line.split()[0] for line in capfd.readouterr().out.splitlines()}
-    assert {"default", "usd", "urdf", "mjcf", "all", "geometric"} <= listed
-
-    change = ["--set", 'export=[{use="mjcf"}]']
-    assert run(["recipes", "show", "default", *change]) == 0
-    (home / "shown.toml").write_text(capfd.readouterr().out)
-    plugins = Plugins(installed=False)
-    assert load_recipe(home / "shown.toml", plugins) == load_recipe("default", plugins, change[1:])
-
-    (home / "ships.py").write_text(
-        "import simart_kit as sk\n@sk.hookimpl\ndef register_recipes(register):\n"
-        "    register('shipped', 'recipe.toml')\n    register('lost', 'nowhere.toml')\n"
-    )
-    assert run(["recipes", "list", "--plugin", "fakes.py", "--plugin", "ships.py"]) == 0
-    lines = capfd.readouterr().out.splitlines()
-    assert any(re.fullmatch(r"shipped +for tests", line) for line in lines)
-    assert any(re.match(r"lost +FAILED: cannot read recipe", line) for line in lines)
-
-    assert run(["recipes", "check", "recipe.toml", "--plugin", "fakes.py"]) == 0
-    assert capfd.readouterr().out == "ok: recipe.toml: labels > joints > text\n"
-
-
-def test_plugins_list_marks_failures_and_conflicts(home, capfd):
-    (home / "broken.py").write_text("1 / 0")
-    (home / "twin.py").write_text(FAKES)
-
-    assert run(["plugins", "list", "--check"]) == 0
-    capfd.readouterr()
-    files = ["--plugin", "broken.py", "--plugin", "fakes.py", "--plugin", "twin.py"]
-    assert run(["plugins", "list", *files]) == 0
-    out = capfd.readouterr().out
-    assert "FAILED  broken during import: ZeroDivisionError: division by zero" in out
-    assert "CONFLICT  segmenter 'labels' is registered by fakes (fakes.py) and by twin (twin.py)" in out
-    assert re.search(r"^exporter +usd +simart_kit_exporters\.usd \(built in ", out, re.MULTILINE)
-
-    assert run(["plugins", "list", "--check", "--json", *files]) == 1
-    document = json.loads(capfd.readouterr().out)
-    assert [(f["plugin"], f["phase"]) for f in document["failures"]] == [("broken", "import")]
-    assert [group[0]["name"] for group in document["conflicts"]] == ["labels", "joints", "text"]
-    assert ("exporter", "usd") in [(stage["kind"], stage["name"]) for stage in document["stages"]]
-
-
-def test_plugins_show_prints_doc_and_options(home, capfd):
-    assert run(["plugins", "show", "labels", "--plugin", "fakes.py"]) == 0
-    out = capfd.readouterr().out
-    assert "segmenter labels, from fakes (fakes.py)" in out
-    assert "Labels a cabinet.\n\nKnows one cabinet only." in out
-    assert re.search(r'fault +text +"" +What goes wrong\.', out)
-
-    assert run(["plugins", "show", "geometric", "--json"]) == 0
-    shown = json.loads(capfd.readouterr().out)
-    assert [row["kind"] for row in shown] == ["segmenter", "joint predictor"]
-    assert all(option["description"] for row in shown for option in row["options"])
-
-
-def test_progress_on_a_terminal_shows_finished_stages_and_the_next():
-    from rich.console import Console
-    from rich.progress import Progress, TextColumn
-
-    recipe = load_recipe("usd", Plugins(installed=False))
-    screen = StringIO()
-    console = Console(file=screen, force_terminal=True, width=80)
-    with Progress(TextColumn("running {task.description}"), console=console, auto_refresh=False) as shown:
-        bar = Bar(shown)
-        bar.run_started(SimpleNamespace(recipe=recipe))
-        bar.stage_finished("load", "glb", 0.25)
-        assert shown.tasks[0].description == f"segment {recipe.segmenter.use}"
-        for stage in steps(recipe)[1:]:
-            bar.stage_finished(stage.split()[0], stage.split()[-1], 0.5)
-        assert shown.tasks[0].finished
-    assert "load glb" in screen.getvalue()
-    assert "0.25 s" in screen.getvalue()
-
-
-@pytest.mark.parametrize("arguments", [["--help"], ["plugins", "list"]])
-def test_start_up_takes_little_more_cpu_time_than_its_libraries(arguments):
-    # A share rather than seconds, which depend on the machine and on what else it does.
-    libraries = [sys.executable, "-c", "import numpy, pydantic, pluggy, typer"]
-    start_up = [sys.executable, "-m", "simart_kit", *arguments]
-    # The first start compiles modules.
-    seconds = [(_cpu_seconds(libraries), _cpu_seconds(start_up)) for _ in range(4)][1:]
-    least_of_libraries, least = map(min, zip(*seconds, strict=True))
-    assert least < 3 * least_of_libraries
-
-
-def _cpu_seconds(command):
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-
-
-def test_plugins_list_imports_nothing_heavy():
-    heavy = "torch pxr mujoco rerun trimesh scipy PIL embreex"
-    code = (
-        "import sys; from simart_kit.cli.main import run; run(['plugins', 'list']);"
-        f"print(sorted(set('{heavy}'.split()) & set(sys.modules)))"
-    )
-    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-
-    assert out.splitlines()[-1] == "[]"
-
-
-def finish(running: subprocess.Popen) -> tuple[int, str, str]:
-    out, err = running.communicate(timeout=60)
-    return running.returncode, out, err
