@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 import torch
+from simart_kit_plugins.nano.array_network import ArrayNetwork
 from simart_kit_plugins.nano.cloud import Cloud
 from simart_kit_plugins.nano.config import NanoConfig
+from simart_kit_plugins.nano.evidence import COUNT
 from simart_kit_plugins.nano.network import NanoNetwork
 from simart_kit_plugins.nano.pooling import pooled
 from simart_kit_plugins.nano.proposals import Proposal, segmentation_of, with_body
@@ -91,12 +93,17 @@ def cloud_seen_by(quarters, mirrored):
     return Cloud(points @ matrix.T, normals @ matrix.T, colors, np.arange(120) % 6, area, 6)
 
 
+def arrays(network):
+    return {name: tensor.detach().numpy() for name, tensor in network.state_dict().items()}
+
+
 @pytest.mark.parametrize("view", VIEWS[1:4])
 def test_votes_from_all_eight_sides_do_not_depend_on_the_side(view):
     torch.manual_seed(0)
     network = NanoNetwork(CONFIG, 1).eval()
     for parameter in network.parameters():
         parameter.data += 0.3 * torch.randn_like(parameter)
+    network = ArrayNetwork(CONFIG, arrays(network))
     one, other = (say(network, cloud_seen_by(*v), 8) for v in ((0, False), view))
     alone = say(network, cloud_seen_by(*view), 1)
     assert np.allclose(one.together, other.together, atol=2e-3)
@@ -105,17 +112,17 @@ def test_votes_from_all_eight_sides_do_not_depend_on_the_side(view):
 
 
 def test_limits_seen_in_a_mirror_are_turned_back():
-    class Blind(NanoNetwork):
+    class Blind(ArrayNetwork):
         """Says of every candidate that it turns from -0.1 to 0.5 pi, or slides so far, whatever it sees."""
 
         def parts(self, tokens, owner, share, numbers, real):
             read = super().parts(tokens, owner, share, numbers, real)
-            travel = torch.tensor([-0.1, 0.5]).expand_as(read.travel)
+            travel = np.broadcast_to(np.float32([-0.1, 0.5]), read.travel.shape)
             return type(read)(read.kind, read.right, travel, read.embedding)
 
-    network = Blind(CONFIG, 0).eval()
+    network = Blind(CONFIG, arrays(NanoNetwork(CONFIG, 0)))
     tokens = say(network, cloud_seen_by(0, False), 2).tokens
-    numbers = np.zeros((1, 2, network.candidate[0].in_features))
+    numbers = np.zeros((1, 2, COUNT))
     numbers[0, 0, 0], numbers[0, 1, 1] = 1, 1  # the first slides, the second turns
     said = say_parts(
         network, tokens, np.full((1, 6), 1 / 6, dtype=np.float32), numbers, np.ones((1, 2), bool)

@@ -10,7 +10,8 @@ import torch
 from safetensors.torch import load_file, save_file
 from simart_kit_plugins.nano.config import NanoConfig
 from simart_kit_plugins.nano.network import NanoNetwork
-from simart_kit_plugins.nano.weights import CONFIG_FILE, WEIGHTS_FILE, load_model, save_network
+from simart_kit_plugins.nano.stored_model import CONFIG_FILE, WEIGHTS_FILE, read_model
+from simart_kit_plugins.nano.weights import save_network
 
 from simart_kit.asset_io import load_asset
 from simart_kit.cli.main import run
@@ -213,7 +214,7 @@ def test_weights_that_cannot_be_used_are_refused_with_what_where_and_what_to_do(
     folder = shutil.copytree(model, tmp_path / "model")
     damage(folder)
     with pytest.raises(BadInputError, match=told) as caught:
-        load_model(folder)
+        read_model(folder)
     line = str(caught.value)
     assert "\n" not in line
     assert str(folder) in line

@@ -1,18 +1,22 @@
 """From a mesh to parts and joints: grouping, sampling, a network's words as joints, and its weights."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 import torch
 from simart_kit_plugins.nano import predicting
+from simart_kit_plugins.nano.array_network import ArrayNetwork
 from simart_kit_plugins.nano.candidates import EDGE, SLIDE, Candidates, alike
 from simart_kit_plugins.nano.config import NanoConfig
 from simart_kit_plugins.nano.grouping import groups, piece_parts
 from simart_kit_plugins.nano.knowledge import Knowledge
 from simart_kit_plugins.nano.meshes import MOST_PIECES, mesh_cloud
-from simart_kit_plugins.nano.network import NanoNetwork, PartReading, Reading
+from simart_kit_plugins.nano.network import NanoNetwork
+from simart_kit_plugins.nano.reading import PartsRead, PiecesRead
 from simart_kit_plugins.nano.segmenter import Nano
 from simart_kit_plugins.nano.truth import KINDS
-from simart_kit_plugins.nano.weights import NanoModel, load_model, save_network
+from simart_kit_plugins.nano.weights import load_model, save_network
 
 from simart_kit.errors import BadInputError
 from simart_kit.mesh import Mesh
@@ -27,40 +31,48 @@ SURE = 12.0
 KNOWN = Knowledge(materials={"/door": "glass"})
 
 
-class Oracle(NanoNetwork):
+class Oracle(ArrayNetwork):
     """Says what the faces' true parts say, by the pieces that it is told of."""
 
     def __init__(self, part, slides):
-        super().__init__(CONFIG, 0)
-        self.truth, self.slides = torch.as_tensor(part), slides
+        super().__init__(CONFIG, {})
+        self.truth, self.slides = np.asarray(part), slides
 
-    def forward(self, batch):
-        sides, most = batch.there.shape
-        truth = torch.full((most,), -1)
+    def read(self, rows):
+        sides, most = rows.there.shape
+        truth = np.full(most, -1)
         truth[: len(self.truth)] = self.truth
-        same = truth[:, None] == truth[None]
-        label = torch.zeros(sides, most, 3)
+        same = np.where(truth[:, None] == truth[None], SURE, -SURE)
+        label = np.zeros((sides, most, 3))
         label[:, truth > 0, 1] = SURE
-        return Reading(
-            torch.zeros(sides, most, 16),
-            (same.float() * 2 * SURE - SURE).expand(sides, -1, -1),
-            ((truth > 0).float() * 2 * SURE - SURE).expand(sides, -1),
-            torch.zeros(sides, most, len(KINDS)),
+        return PiecesRead(
+            np.zeros((sides, most, 16), np.float32),
+            np.broadcast_to(same, (sides, most, most)),
+            np.broadcast_to(np.where(truth > 0, SURE, -SURE), (sides, most)),
+            np.zeros((sides, most, len(KINDS))),
             label,
-            torch.tensor([[0.0, SURE]]).expand(sides, -1),
-            torch.full((sides,), 0.5),
+            np.broadcast_to(np.array([0.0, SURE]), (sides, 2)),
+            np.full(sides, 0.5),
         )
 
     def parts(self, tokens, owner, share, numbers, real):
-        kind = torch.zeros(len(owner), len(KINDS))
+        kind = np.zeros((len(owner), len(KINDS)))
         kind[:, KINDS.index("prismatic" if self.slides else "revolute")] = SURE
-        travel = torch.tensor([-0.5, 0.0]).expand(*real.shape, 2)
-        first = torch.zeros(real.shape).masked_fill(~real, -torch.inf)
+        travel = np.broadcast_to(np.array([-0.5, 0.0]), (*real.shape, 2))
+        first = np.where(real, 0.0, -np.inf)
         first[:, 0] = 1.0
-        return PartReading(kind, first, travel, torch.zeros(len(owner), 16))
+        return PartsRead(kind, first, travel, np.zeros((len(owner), 16)))
 
     def carriers(self, child, parent):
-        return torch.full((len(child), len(parent)), -SURE)
+        return np.full((len(child), len(parent)), -SURE)
+
+
+@dataclass(frozen=True)
+class Told:
+    """A model as `read_model` reads it."""
+
+    network: ArrayNetwork
+    known: Knowledge
 
 
 def test_groups_are_the_blocks_of_a_matrix_of_chances_the_surest_first():
@@ -148,8 +160,8 @@ def test_what_the_network_says_becomes_parts_and_joints_in_metres(tmp_path, monk
     asset = cabinet_asset()
     pieces = find_segments(asset.mesh).face_segment
     part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
-    model = NanoModel(Oracle(part, slides), KNOWN)
-    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_model", lambda folder: model)
+    model = Told(Oracle(part, slides), KNOWN)
+    monkeypatch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: model)
     options = read_options(Nano, {"model": "any", "pool": False, "votes": 1, "least": 0.0})
     found = Nano(options).segment(asset.mesh)
     assert [guess.name for guess in found.parts] == ["body", "door", "door_2"]
@@ -224,8 +236,8 @@ def test_parts_that_are_not_sure_enough_stay_with_the_body_and_are_told(monkeypa
     asset = cabinet_asset()
     pieces = find_segments(asset.mesh).face_segment
     part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
-    model = NanoModel(Oracle(part, False), KNOWN)
-    monkeypatch.setattr("simart_kit_plugins.nano.weights.load_model", lambda folder: model)
+    model = Told(Oracle(part, False), KNOWN)
+    monkeypatch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: model)
     found = Nano(read_options(Nano, {"model": "any", "pool": False, "least": 0.9})).segment(asset.mesh)
     assert found.face_part.max() == 0
     assert found.joints == ()

@@ -8,8 +8,8 @@ from simart_kit_plugins.nano.generate.catalogue import CATEGORIES
 from simart_kit_plugins.nano.generate.category import named
 from simart_kit_plugins.nano.generate.data_set import generated
 from simart_kit_plugins.nano.segmenter import Nano
+from simart_kit_plugins.nano.stored_model import read_model, shipped_folder
 from simart_kit_plugins.nano.training.plan import UNSEEN, TrainingPlan
-from simart_kit_plugins.nano.weights import load_model, shipped_folder
 
 from simart_kit import Mesh
 from simart_kit.cli.main import run
@@ -24,7 +24,7 @@ from .real_objects import EXAMPLE
 def test_weights_are_small_and_of_the_network_that_training_makes_by_default():
     folder = shipped_folder()
     assert sum(path.stat().st_size for path in folder.iterdir()) < 16e6
-    config = load_model(folder).network.config
+    config = read_model(folder).config
     named_by_data = {"labels": config.labels, "categories": config.categories}
     assert config == TrainingPlan().network.model_copy(update=named_by_data)
     # What was kept aside to judge it on, it does not know.
@@ -32,15 +32,15 @@ def test_weights_are_small_and_of_the_network_that_training_makes_by_default():
 
 
 def test_knowledge_beside_the_weights_is_of_their_categories():
-    model = load_model(shipped_folder())
-    known, config = model.known, model.network.config
+    model = read_model(shipped_folder())
+    known, config = model.known, model.config
     assert set(known.still) == {c.name for c in CATEGORIES if not c.moves} & set(config.categories)
     assert set(known.materials.values()) <= set(MATERIALS)
 
 
 def test_the_model_card_tells_what_the_files_are():
     card = (shipped_folder() / "README.md").read_text(encoding="utf-8")
-    weights = sum(p.numel() for p in load_model(shipped_folder()).network.parameters())
+    weights = sum(array.size for array in read_model(shipped_folder()).weights.values())
     assert f"{weights / 1e6:.2f} M weights" in card
     plan = TrainingPlan()
     for number in (plan.objects, plan.steps):

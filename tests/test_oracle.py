@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import torch
+from simart_kit_plugins.nano.array_network import ArrayNetwork
 from simart_kit_plugins.nano.config import NanoConfig
 from simart_kit_plugins.nano.generate.catalogue import CATEGORIES
 from simart_kit_plugins.nano.generate.category import named
@@ -169,7 +170,7 @@ class Knowing:
 
 def test_a_network_is_asked_for_the_joints_of_true_parts_and_then_for_everything(tmp_path, monkeypatch):
     monkeypatch.setattr(asking, "predict_groups", lambda _, __, found: tuple(map(slide_of, found)))
-    monkeypatch.setattr(asking, "load_model", lambda _: asking.Model(NanoNetwork(TINY, 0), Knowing()))
+    monkeypatch.setattr(asking, "load_model", lambda _: asking.Model(ArrayNetwork(TINY, {}), Knowing()))
     (one,) = climbed(written(tmp_path, wardrobe()), model=tmp_path)
     grouping, whole = one.steps[GROUPING], one.steps[WHOLE]
     # The door is said to slide, along the drawer's way.

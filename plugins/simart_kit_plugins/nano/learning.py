@@ -14,10 +14,9 @@ from simart_kit.arrays import FloatArray
 
 from .config import NanoConfig
 from .network import Batch
-from .scene import AREA, MIDDLE
+from .reading import padded, rows_of
+from .scene import AREA
 from .store import Stored
-
-_STEP = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,44 +60,13 @@ class Targets:
 
 def batch_of(examples: Sequence[Stored]) -> Batch:
     """Examples side by side."""
-    most = _padded(examples)
-    count = len(examples)
-    numbers = np.zeros((count, most, examples[0].own.shape[1]), dtype=np.float32)
-    gap = np.zeros((count, most, most), dtype=np.float32)
-    there = np.zeros((count, most), dtype=np.bool_)
-    points, owner = [], []
-    for row, e in enumerate(examples):
-        size = len(e.own)
-        numbers[row, :size], there[row, :size] = e.own, True
-        gap[row, :size, :size] = e.gap
-        points.append(point_numbers(e))
-        owner.append(e.piece.astype(np.int64) + row * most)
-    return Batch(
-        torch.from_numpy(np.concatenate(points)),
-        torch.from_numpy(np.concatenate(owner)),
-        torch.from_numpy(numbers),
-        torch.from_numpy(gap),
-        torch.from_numpy(there),
-    )
-
-
-def _padded(examples: Sequence[Stored]) -> int:
-    """Pieces of a batch: one of few numbers, since the arithmetic is prepared anew for every new shape."""
-    return -(-max(len(e.own) for e in examples) // _STEP) * _STEP
-
-
-def point_numbers(e: Stored) -> FloatArray:
-    """(N, POINT_NUMBERS): place, place in the piece, direction without sense, colour."""
-    points, normals = e.points.astype(np.float32), e.normals.astype(np.float32)
-    x, y, z = normals.T
-    facing = np.stack([x * x, y * y, z * z, x * y, x * z, y * z], axis=1)
-    inside = 4 * (points - e.own[e.piece, MIDDLE])
-    return np.concatenate([points, inside, facing, e.colors.astype(np.float32) - 0.5], axis=1)
+    rows = rows_of(examples)
+    return Batch(*(torch.from_numpy(getattr(rows, field.name)) for field in fields(rows)))
 
 
 def targets_of(examples: Sequence[Stored], config: NanoConfig) -> Targets:
     """What is right for `batch_of` the same examples."""
-    most = _padded(examples)
+    most = padded(examples)
     widest = max([int(c) for e in examples for c in e.candidates], default=1)
     labels = {label: k for k, label in enumerate(config.labels, start=1)}
     categories = {name: k for k, name in enumerate(config.categories, start=1)}

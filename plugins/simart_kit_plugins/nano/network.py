@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import TypeAlias
 
 import torch
 from torch import Tensor, nn
@@ -10,12 +11,14 @@ from torch.nn.functional import gelu
 
 from .config import NanoConfig
 from .evidence import COUNT
-from .pairs import PAIR_NUMBERS, pair_numbers
-from .scene import PIECE_NUMBERS
+from .pairs import pair_numbers
+from .reading import POINT_NUMBERS, PartsRead, PiecesRead
+from .scene import PAIR_NUMBERS, PIECE_NUMBERS
 from .truth import KINDS
 
-POINT_NUMBERS = 3 + 3 + 6 + 3
 _SMALL = 0.02
+Reading: TypeAlias = PiecesRead[Tensor]
+PartReading: TypeAlias = PartsRead[Tensor]
 # Of so many parts in training, one has its joint chosen by the candidates' evidence alone.
 _BLIND = 4
 
@@ -41,46 +44,6 @@ class Batch:
     def to(self, device: torch.device | str) -> Batch:
         """On another device."""
         return Batch(*(getattr(self, field.name).to(device) for field in fields(self)))
-
-
-@dataclass(frozen=True, eq=False)
-class Reading:
-    """What the network makes of the pieces.
-
-    Attributes:
-        tokens: (B, S, D).
-        together: (B, S, S) logits of two pieces being of one part; symmetric.
-        moves: (B, S) logit of the piece being of a moving part.
-        kind: (B, S, 5) logits of how its part moves, by `KINDS`.
-        label: (B, S, L) logits of what its part is called.
-        category: (B, C) logits of what the object is.
-        size: (B,) natural logarithm of its longest side [m].
-    """
-
-    tokens: Tensor
-    together: Tensor
-    moves: Tensor
-    kind: Tensor
-    label: Tensor
-    category: Tensor
-    size: Tensor
-
-
-@dataclass(frozen=True, eq=False)
-class PartReading:
-    """What the network makes of parts.
-
-    Attributes:
-        kind: (P, 5) logits, by `KINDS`.
-        right: (P, C) logits of the candidates; -inf where there is none.
-        travel: (P, C, 2) limits about each candidate: turns [pi rad], slides [sides of the object].
-        embedding: (P, D).
-    """
-
-    kind: Tensor
-    right: Tensor
-    travel: Tensor
-    embedding: Tensor
 
 
 class NanoNetwork(nn.Module):

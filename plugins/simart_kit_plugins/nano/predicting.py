@@ -10,12 +10,12 @@ import numpy as np
 from simart_kit.arrays import FloatArray, IntArray
 from simart_kit.asset import JointKind
 
+from .array_network import ArrayNetwork
 from .candidates import Candidates
 from .choices import Choices
 from .cloud import Cloud
 from .evidence import COUNT
 from .grouping import Group, groups, piece_parts
-from .network import NanoNetwork
 from .part_lines import part_lines
 from .siblings import shared_certainty
 from .voting import Said, SaidParts, say, say_parts
@@ -87,11 +87,11 @@ class Prediction:
     size: tuple[float, float]
 
 
-def predict(network: NanoNetwork, cloud: Cloud, least: float, votes: int = VOTES) -> Prediction:
+def predict(network: ArrayNetwork, cloud: Cloud, least: float, votes: int = VOTES) -> Prediction:
     """Read a cloud.
 
     Args:
-        network: on the CPU.
+        network: that reads it.
         cloud: of the object.
         least: parts less sure than this, of moving as one and of how, stay with the body; in an object that
             is recognised, parts less sure than `_EASE` of it.
@@ -121,14 +121,14 @@ def _sure(every: Sequence[PredictedPart], least: float) -> tuple[PredictedPart, 
 
 
 def predict_groups(
-    network: NanoNetwork, cloud: Cloud, found: Sequence[Group], votes: int = VOTES
+    network: ArrayNetwork, cloud: Cloud, found: Sequence[Group], votes: int = VOTES
 ) -> tuple[PredictedPart, ...]:
     """The joints of given groups of pieces, in their order; none holds all pieces."""
     return _parts(network, say(network, cloud, _votes(cloud, votes)), cloud, found)
 
 
 def _parts(
-    network: NanoNetwork, said: Said, cloud: Cloud, found: Sequence[Group]
+    network: ArrayNetwork, said: Said, cloud: Cloud, found: Sequence[Group]
 ) -> tuple[PredictedPart, ...]:
     if not found:
         return ()
@@ -175,7 +175,7 @@ def _carriers(chance: FloatArray) -> list[int]:
 
 
 def _part(
-    network: NanoNetwork,
+    network: ArrayNetwork,
     said: Said,
     parts: SaidParts,
     row: int,

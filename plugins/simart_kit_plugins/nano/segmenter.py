@@ -14,7 +14,6 @@ from pydantic import Field
 import simart_kit
 from simart_kit import Note, Segmentation, Segmenter
 from simart_kit.arrays import frozen_ints
-from simart_kit.segments import find_segments
 
 if TYPE_CHECKING:
     from simart_kit import Mesh
@@ -69,13 +68,15 @@ class Nano(Segmenter):
         return self._segmented(mesh, spec)
 
     def _segmented(self, mesh: Mesh, spec: Spec | None) -> Segmentation:
+        from simart_kit.segments import find_segments
+
         from .meshes import mesh_cloud
         from .predicting import predict
         from .showing import evidence
-        from .weights import load_model, shipped_folder
+        from .stored_model import read_model, shipped_folder
 
         folder = Path(self.options.model) if self.options.model else shipped_folder()
-        model = load_model(folder)
+        model = read_model(folder)
         seen = mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(self.seed))
         said = predict(model.network, seen.cloud, self.options.least, self.options.votes)
         material = partial(model.known.material, said.category)

@@ -5,16 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import torch
-from torch import Tensor
 
 from simart_kit.arrays import BoolArray, Float32Array, FloatArray
 
+from .array_network import ArrayNetwork, sigmoid, softmax
 from .candidates import SLIDE
 from .cloud import Cloud
 from .examples import Example
-from .learning import batch_of
-from .network import NanoNetwork
+from .reading import rows_of
 from .scene import pieces_of
 from .store import stored
 from .turning import VIEWS, turned, turned_evidence
@@ -38,7 +36,7 @@ class Said:
     label: FloatArray
     category: FloatArray
     size: tuple[float, float]
-    tokens: Tensor
+    tokens: Float32Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,29 +56,26 @@ class SaidParts:
     carrier: FloatArray
 
 
-@torch.no_grad()
-def say(network: NanoNetwork, cloud: Cloud, votes: int) -> Said:
+def say(network: ArrayNetwork, cloud: Cloud, votes: int) -> Said:
     """Read a cloud from the first `votes` of the eight `VIEWS`."""
     nothing = Example(
         cloud, pieces_of(cloud), np.zeros(cloud.count, dtype=np.int64), np.array([True]), (), "", 1.0
     )
     here = stored(nothing)
-    read = network(batch_of([turned(here, *view) for view in VIEWS[:votes]]))
+    read = network.read(rows_of([turned(here, *view) for view in VIEWS[:votes]]))
     count = cloud.count
-    sizes = read.size.numpy()
     return Said(
-        _mean(read.moves[:, :count].sigmoid()),
-        _mean(read.together[:, :count, :count].sigmoid()),
-        _mean(read.label[:, :count].softmax(2)),
-        _mean(read.category.softmax(1)),
-        (float(np.exp(sizes.mean())), float(np.exp(sizes.std()))),
+        _mean(sigmoid(read.moves[:, :count])),
+        _mean(sigmoid(read.together[:, :count, :count])),
+        _mean(softmax(read.label[:, :count])),
+        _mean(softmax(read.category)),
+        (float(np.exp(read.size.mean())), float(np.exp(read.size.std()))),
         read.tokens,
     )
 
 
-@torch.no_grad()
 def say_parts(
-    network: NanoNetwork, tokens: Tensor, share: Float32Array, numbers: FloatArray, real: BoolArray
+    network: ArrayNetwork, tokens: Float32Array, share: Float32Array, numbers: FloatArray, real: BoolArray
 ) -> SaidParts:
     """Read parts of an object.
 
@@ -93,22 +88,26 @@ def say_parts(
     """
     kinds, rights, travels, carriers = [], [], [], []
     padded = np.pad(share, ((0, 0), (0, tokens.shape[1] - share.shape[1])))
-    given = torch.from_numpy(padded), torch.from_numpy(real)
     for own, (quarters, mirrored) in zip(tokens, VIEWS, strict=False):
         flat = turned_evidence(numbers.reshape(-1, numbers.shape[2]), quarters, mirrored)
-        seen = torch.from_numpy(flat.reshape(numbers.shape).astype(np.float32))
-        read = network.parts(own[None], torch.zeros(len(share), dtype=torch.int64), given[0], seen, given[1])
-        slide = seen[..., SLIDE] > 0
-        travel = torch.where(slide[..., None], read.travel, read.travel * torch.pi)
+        seen = flat.reshape(numbers.shape).astype(np.float32)
+        read = network.parts(own[None], np.zeros(len(share), dtype=np.int64), padded, seen, real)
+        slide = seen[..., SLIDE, None] > 0
+        travel = np.where(slide, read.travel, read.travel * np.float32(np.pi))
         if mirrored:
-            travel = torch.where(slide[..., None], travel, -travel.flip(2))
-        carried = network.carriers(read.embedding, read.embedding).fill_diagonal_(-torch.inf)
-        kinds.append(read.kind.softmax(1))
-        rights.append(read.right.softmax(1))
+            travel = np.where(slide, travel, -travel[..., ::-1])
+        kinds.append(softmax(read.kind))
+        rights.append(softmax(read.right))
         travels.append(travel)
-        carriers.append(torch.cat([carried.new_zeros(len(carried), 1), carried], dim=1).softmax(1))
-    return SaidParts(*(_mean(torch.stack(found)) for found in (kinds, rights, travels, carriers)))
+        carriers.append(softmax(_with_body(network.carriers(read.embedding, read.embedding))))
+    return SaidParts(*(_mean(np.stack(found)) for found in (kinds, rights, travels, carriers)))
 
 
-def _mean(votes: Tensor) -> FloatArray:
-    return np.asarray(votes.mean(0).numpy(), dtype=np.float64)
+def _with_body(carried: Float32Array) -> Float32Array:
+    """(P, P + 1) logits: the body's, which is 0, then those of the parts, of which none carries itself."""
+    alone = np.where(np.eye(len(carried), dtype=np.bool_), np.float32(-np.inf), carried)
+    return np.pad(alone, ((0, 0), (1, 0)))
+
+
+def _mean(votes: Float32Array) -> FloatArray:
+    return np.asarray(votes.mean(axis=0), dtype=np.float64)

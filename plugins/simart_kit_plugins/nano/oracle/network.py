@@ -13,11 +13,11 @@ from simart_kit.bench.articulation import LinkJoint
 from simart_kit.bench.formats.output_folder import in_asset_frame
 from simart_kit.recipe import read_options
 
+from ..array_network import ArrayNetwork
 from ..grouping import Group
-from ..network import NanoNetwork
 from ..predicting import PredictedPart, predict_groups
 from ..segmenter import Nano
-from ..weights import load_model as load_weights
+from ..stored_model import read_model
 from .case import Case, cloud_from_asset
 from .judging import Judged, judge
 
@@ -27,17 +27,17 @@ class Model:
     """A network to ask.
 
     Attributes:
-        network: on the CPU.
+        network: that reads clouds.
         segmenter: `nano` with these weights, and otherwise as it is by default.
     """
 
-    network: NanoNetwork
+    network: ArrayNetwork
     segmenter: Segmenter
 
 
 def load_model(folder: Path) -> Model:
     """Read a folder such as `train nano` writes; raises BadInputError where it is none."""
-    network = load_weights(folder).network
+    network = read_model(folder).network
     return Model(network, Nano(read_options(Nano, {"model": str(folder)})))
 
 

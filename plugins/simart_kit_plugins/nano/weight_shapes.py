@@ -1,0 +1,55 @@
+"""Which weights a network of some sizes has: to tell what is wrong with a file, without torch."""
+
+from __future__ import annotations
+
+from .config import NanoConfig
+from .evidence import COUNT
+from .reading import POINT_NUMBERS
+from .scene import PAIR_NUMBERS, PIECE_NUMBERS
+from .truth import KINDS
+
+
+def weight_shapes(config: NanoConfig) -> dict[str, tuple[int, ...]]:
+    """The shape of each of `NanoNetwork(config).state_dict()`, by its name."""
+    width, points, choice = config.channels, config.point_channels, config.choice_channels
+    biases = config.layers * config.heads + 1
+    shapes: dict[str, tuple[int, ...]] = {
+        "biases.weight": (biases, PAIR_NUMBERS, 1, 1),
+        "biases.bias": (biases,),
+        **_perceptron("points", POINT_NUMBERS, points, points),
+        **_perceptron("enter", 2 * points + PIECE_NUMBERS, config.hidden, width),
+        **_perceptron("part", 3 * width, config.hidden, width),
+        **_perceptron("candidate", COUNT, choice, choice),
+        **_perceptron("carrier", 2 * width, config.hidden // 2, 1),
+        **_norm("norm", width),
+    }
+    for number in range(config.layers):
+        shapes |= _layer(f"layers.{number}", config)
+    heads = {"left": width, "right": width, "moves": 1, "kind": len(KINDS), "part_kind": len(KINDS)}
+    heads |= {"label": len(config.labels) + 1, "category": len(config.categories) + 1, "size": 1}
+    for name, outer in (heads | {"asking": choice}).items():
+        shapes |= _linear(name, width, outer)
+    return shapes | _linear("choice", choice, 3)
+
+
+def _layer(name: str, config: NanoConfig) -> dict[str, tuple[int, ...]]:
+    width = config.channels
+    return {
+        **_norm(f"{name}.before", width),
+        **_norm(f"{name}.after", width),
+        **_linear(f"{name}.ask", width, 3 * width),
+        **_linear(f"{name}.answer", width, width),
+        **_perceptron(f"{name}.think", width, config.hidden, width),
+    }
+
+
+def _perceptron(name: str, inner: int, hidden: int, outer: int) -> dict[str, tuple[int, ...]]:
+    return _linear(f"{name}.0", inner, hidden) | _linear(f"{name}.2", hidden, outer)
+
+
+def _linear(name: str, inner: int, outer: int) -> dict[str, tuple[int, ...]]:
+    return {f"{name}.weight": (outer, inner), f"{name}.bias": (outer,)}
+
+
+def _norm(name: str, width: int) -> dict[str, tuple[int, ...]]:
+    return {f"{name}.weight": (width,), f"{name}.bias": (width,)}
