@@ -62,10 +62,19 @@ class _Surfaces:
 
     def same(self, here: Window, there: Window) -> BoolArray:
         """Whether pixels show the same surface: near one plane, and facing alike."""
-        alike = sum(n[here] * n[there] for n in self.normal)
-        away = sum(n[here] * (p[here] - p[there]) for n, p in zip(self.normal, self.position, strict=True))
-        close = np.abs(away) < self.tolerance
+        own = [n[here] for n in self.normal]
+        alike = _dot(own, [n[there] for n in self.normal])
+        away = _dot(own, [p[here] - p[there] for p in self.position])
+        close = np.abs(away, out=away) < self.tolerance
         return np.asarray(self.present[here] & self.present[there] & (alike > 0.9) & close)
+
+
+def _dot(one: list[Float32Array], other: list[Float32Array]) -> Float32Array:
+    """Sums of products of three arrays each."""
+    total = one[0] * other[0]
+    total += one[1] * other[1]
+    total += one[2] * other[2]
+    return total
 
 
 def _pass(values: list[Float32Array], surfaces: _Surfaces, sign: int) -> list[Float32Array]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from simart_kit.arrays import BoolArray, FloatArray
+from simart_kit.arrays import BoolArray, FloatArray, IntArray
 from simart_kit.bounds import triangle_bounds
 
 from .scene import Scene
@@ -67,19 +67,36 @@ class Contacts:
 def smallest_distance(points: FloatArray, triangles: FloatArray, reach: float) -> float:
     """Smallest distance between (N, 3) points and (M, 3, 3) triangles; exact where it is within `reach`.
 
-    Only pairs whose spheres could hold the smallest distance are looked at closely.
+    Only pairs whose spheres and boxes could hold the smallest distance are looked at closely.
     """
     from scipy.spatial.distance import cdist
 
     centers = triangles.mean(axis=1)
     radii = np.linalg.norm(triangles - centers[:, None], axis=2).max(axis=1)
     to_center = cdist(points, centers)  # a centre lies on its triangle: an upper bound
-    point, triangle = np.nonzero(to_center <= radii + min(float(to_center.min()), reach) + 1e-9)
+    bound = min(float(to_center.min()), reach) + 1e-9
+    # Found in one row, pairs come several times as fast as in two dimensions.
+    near = np.divmod(np.flatnonzero(to_center <= radii + bound), len(triangles))
+    point, triangle = _in_boxes(points, triangles, *near, bound)
     best = np.inf
     for start in range(0, len(point), _CHUNK):
         part = slice(start, start + _CHUNK)
         best = min(best, float(paired_distances(points[point[part]], triangles[triangle[part]]).min()))
     return best
+
+
+def _in_boxes(
+    points: FloatArray, triangles: FloatArray, point: IntArray, triangle: IntArray, margin: float
+) -> tuple[IntArray, IntArray]:
+    """Those of pairs (K,), (K,) whose point lies within the triangle's bounding box, widened by a margin."""
+    lower, upper = triangle_bounds(triangles)
+    for axis in range(3):
+        at = points[:, axis].take(point)
+        inside = (at >= (lower[:, axis] - margin).take(triangle)) & (
+            at <= (upper[:, axis] + margin).take(triangle)
+        )
+        point, triangle = point[inside], triangle[inside]
+    return point, triangle
 
 
 def paired_distances(points: FloatArray, triangles: FloatArray) -> FloatArray:

@@ -1,39 +1,18 @@
-"""Joint predictor `geometric`: candidates from geometry, chosen by evidence, never by least collision."""
+"""Joint predictor `geometric`: imported at every start, so that it imports nothing of its own."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 from pydantic import Field
 
 import simart_kit
-from simart_kit import JointPredictor, Segmentation
-from simart_kit.arrays import vec3
-from simart_kit.asset import Joint, Limits, clean_name, unique_names
-from simart_kit.kinematics import rotation
-from simart_kit.segments import find_segments
-from simart_kit.sweeping import Motion, Sweep
-
-from .candidates import Candidate, Choice, at_depth, hinges, slide, spin
-from .choice import SPINNING, Surroundings, edge_score, hinge_score, says, slide_score
-from .contact import Contacts
-from .rounds import round_axis
-from .scene import Scene, make_scene
-from .views import View, view_part
+from simart_kit import JointPredictor
 
 if TYPE_CHECKING:
-    from simart_kit import Mesh
-    from simart_kit.arrays import FloatArray
+    from simart_kit import Joint, Mesh, Segmentation
     from simart_kit.spec.values import Spec
-
-_SUFFIX = {"revolute": "hinge", "prismatic": "slide", "continuous": "spin"}
-_SHUT = np.deg2rad(0.5)
-_AS_FREE = 0.005  # share of points that may pass through more than about the freest line
-_HARDWARE = 0.12  # pieces of the body smaller than this share of the diagonal may be hinges
 
 
 class GeometricJoints(JointPredictor):
@@ -60,189 +39,6 @@ class GeometricJoints(JointPredictor):
         return self._predicted(mesh, segmentation, spec)
 
     def _predicted(self, mesh: Mesh, segmentation: Segmentation, spec: Spec | None) -> tuple[Joint, ...]:
-        if len(segmentation.parts) == 1:
-            return ()
-        scene = make_scene(mesh, segmentation.face_part)
-        body = _body(scene, segmentation)
-        moving = [i for i in range(scene.count) if i != body]
-        views = {i: view_part(scene, i) for i in moving}
-        hardware = _hardware(mesh, scene, body)
-        contacts = Contacts(scene)
-        granted = _granting(mesh, segmentation, spec)
-        found = []
-        for part in moving:
-            label = segmentation.parts[part].label or segmentation.parts[part].name
-            around = _surroundings(scene, views[part], hardware, [i for i in moving if i != part])
-            made = partial(
-                self._joint, scene, views[part], segmentation, _carrier(contacts, body, part, moving)
-            )
-            joint = made(self._choose(scene, views[part], label, around))
-            if not granted(part, joint):
-                from .honouring import alternatives
+        from .joints import joints_of
 
-                others = alternatives(scene, views[part], label, around)
-                fitting = next((other for other in others if granted(part, made(other))), None)
-                joint = made(_deepened(scene, views[part], fitting)) if fitting else joint
-            found.append(joint)
-        return _renamed(found)
-
-    def _choose(self, scene: Scene, view: View, label: str, around: Surroundings) -> Choice:
-        if says(label, SPINNING):
-            points = scene.triangles[scene.labels == view.part].reshape(-1, 3)
-            axis = round_axis(points)
-            if axis is not None:
-                direction = view.axes @ np.eye(3)[axis]
-                middle = view.axes @ ((points.max(axis=0) + points.min(axis=0)) / 2)
-                return spin(direction, middle), 0.7, (f"labelled '{label}'", "round about this axis")
-        sliding, hinged = slide_score(view, label), hinge_score(view, label)
-        if sliding.value > hinged.value:
-            return slide(view), _confidence(sliding.value - hinged.value), sliding.reasons
-        scored = [(edge_score(view, hinge, around), hinge) for hinge in hinges(view)]
-        scored.sort(key=lambda item: -item[0].value)
-        (best, hinge), (second, _) = scored[0], scored[1]
-        margin = min(best.value - second.value, hinged.value - sliding.value)
-        return _deep_enough(scene, view, hinge), _confidence(margin), hinged.reasons + best.reasons
-
-    def _joint(
-        self,
-        scene: Scene,
-        view: View,
-        segmentation: Segmentation,
-        parent: int,
-        choice: Choice,
-    ) -> Joint:
-        candidate, confidence, evidence = choice
-        child = segmentation.parts[view.part].name
-        limits = None
-        if candidate.kind == "revolute":
-            closed = float(_closed(view, candidate))
-            limits = Limits(closed, max(float(np.deg2rad(self.options.open_angle)) + closed, 0.1))
-        elif candidate.kind == "prismatic":
-            limits = Limits(0.0, float(candidate.upper * scene.size))
-        return Joint(
-            name=f"{clean_name(child)}_{_SUFFIX[candidate.kind]}",
-            kind=candidate.kind,
-            parent=segmentation.parts[parent].name,
-            child=child,
-            origin=vec3(scene.points_to_asset(candidate.origin @ view.axes)),
-            axis=vec3(_rounded(scene.vector_to_asset(candidate.axis @ view.axes))),
-            limits=limits,
-            confidence=confidence,
-            evidence=evidence,
-        )
-
-
-def _granting(mesh: Mesh, segmentation: Segmentation, spec: Spec | None) -> Callable[[int, Joint], bool]:
-    """Whether the joint of the part of a number is as stated; without a spec, always."""
-    if spec is None:
-        return lambda part, joint: True
-    from .honouring import granting
-
-    return granting(mesh, segmentation, spec)
-
-
-def _body(scene: Scene, segmentation: Segmentation) -> int:
-    """The part called body or base, else the largest."""
-    for index, part in enumerate(segmentation.parts):
-        if (part.label or part.name).lower() in ("body", "base", "frame"):
-            return index
-    return int(scene.areas.argmax())
-
-
-def _hardware(mesh: Mesh, scene: Scene, body: int) -> Scene | None:
-    """Small connected pieces of the body, as a scene in the same frame; None when there are none."""
-    pieces = find_segments(mesh).face_segment
-    whole = make_scene(mesh, pieces)
-    sizes = np.array([np.linalg.norm(box.size) for box in whole.boxes])
-    elsewhere = np.bincount(pieces, scene.labels != body, whole.count) > 0
-    small = np.flatnonzero((sizes < _HARDWARE) & ~elsewhere)
-    faces = np.flatnonzero(np.isin(pieces, small))
-    if not len(faces):
-        return None
-    _, labels = np.unique(pieces[faces], return_inverse=True)
-    return Scene(
-        whole.vertices,
-        whole.faces[faces],
-        labels,
-        int(labels.max()) + 1,
-        whole.aligned_from_asset,
-        whole.size,
-        whole.origin,
-    )
-
-
-def _surroundings(scene: Scene, view: View, hardware: Scene | None, others: list[int]) -> Surroundings:
-    return Surroundings(
-        tuple(box.turned(view.axes) for box in hardware.boxes) if hardware else (),
-        tuple(scene.boxes[i].turned(view.axes) for i in others),
-    )
-
-
-def _carrier(contacts: Contacts, body: int, part: int, moving: list[int]) -> int:
-    """The part that carries this one: the body if near, else the nearest other part."""
-    others = [i for i in moving if i != part and i < part]
-    if contacts.gap(part, body) < np.inf or not others:
-        return body
-    nearest = min(others, key=lambda other: contacts.gap(part, other))
-    return nearest if contacts.gap(part, nearest) < np.inf else body
-
-
-def _deepened(scene: Scene, view: View, choice: Choice) -> Choice:
-    """The choice, a hinge moved to where it opens most freely."""
-    candidate, confidence, evidence = choice
-    if candidate.kind != "revolute":
-        return choice
-    return _deep_enough(scene, view, candidate), confidence, evidence
-
-
-def _deep_enough(scene: Scene, view: View, hinge: Candidate) -> Candidate:
-    """The hinge in the middle, front or back of the panel's thickness: the first that opens most freely."""
-    mine = scene.labels == view.part
-    sweep = Sweep(scene.vertices @ view.axes.T, scene.faces[mine], scene.faces[~mine])
-    stops = np.linspace(0.05, 1.0, 20) * hinge.upper
-    lower, upper = _thickness(scene, view, hinge)
-    depths = ((lower + upper) / 2, upper, lower)
-    tried = [at_depth(hinge, float(w)) for w in depths]
-    shares = [float(sweep.blocked(_turning(one), stops)[-1]) for one in tried]
-    # An inset door that turns about its middle cuts into its frame with a narrow strip, a percent of it.
-    return next(one for one, share in zip(tried, shares, strict=True) if share <= min(shares) + _AS_FREE)
-
-
-def _thickness(scene: Scene, view: View, hinge: Candidate) -> tuple[float, float]:
-    """Where the panel begins and ends in depth [w]; at the hinge, where it stands ajar."""
-    if abs(view.ajar) < _SHUT or hinge.edge not in ("left", "right"):
-        return float(view.box.lower[2]), float(view.box.upper[2])
-    points = scene.triangles[scene.labels == view.part].reshape(-1, 3) @ view.axes.T
-    near = np.abs(points[:, 0] - hinge.origin[0]) < 0.05 * view.box.size[0]
-    return float(points[near, 2].min()), float(points[near, 2].max())
-
-
-def _turning(hinge: Candidate) -> Motion:
-    def motion(angle: float) -> FloatArray:
-        matrix = np.eye(4)
-        matrix[:3, :3] = rotation(hinge.axis * angle)
-        matrix[:3, 3] = hinge.origin - matrix[:3, :3] @ hinge.origin
-        return matrix
-
-    return motion
-
-
-def _closed(view: View, hinge: Candidate) -> float:
-    """Position at which a panel that stands ajar is closed [rad], at most 0."""
-    opened = {"left": -view.ajar, "right": view.ajar}.get(hinge.edge, 0.0)
-    return -opened if opened > _SHUT else 0.0
-
-
-def _confidence(margin: float) -> float:
-    return float(np.round(np.clip(0.5 + 0.2 * margin, 0.3, 0.95), 2))
-
-
-def _rounded(axis: FloatArray) -> FloatArray:
-    """Without the last bits of a turn to and fro, so that an axis along x reads 1, 0, 0."""
-    axis = np.where(np.abs(axis) < 1e-9, 0.0, axis)
-    return np.asarray(axis / np.linalg.norm(axis))
-
-
-def _renamed(joints: list[Joint]) -> tuple[Joint, ...]:
-    names = unique_names([joint.name for joint in joints])
-    return tuple(replace(joint, name=name) for joint, name in zip(joints, names, strict=True))
+        return joints_of(mesh, segmentation, spec, float(np.deg2rad(self.options.open_angle)))

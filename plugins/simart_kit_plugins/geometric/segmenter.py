@@ -1,4 +1,4 @@
-"""Segmenter `geometric`: segments grouped into parts that can move, without any weights."""
+"""Segmenter `geometric`: imported at every start, so that it imports nothing of its own."""
 
 from __future__ import annotations
 
@@ -8,21 +8,11 @@ import numpy as np
 from pydantic import Field
 
 import simart_kit
-from simart_kit import Note, PartGuess, Segmentation, Segmenter
-from simart_kit.arrays import frozen_ints
-from simart_kit.segments import Segments, find_segments
-
-from .contact import Contacts
-from .movers import Mover, doubtful_movers, front_movers
-from .naming import names
-from .rounds import knobs, wheels
-from .scene import Scene, make_scene
+from simart_kit import Segmenter
 
 if TYPE_CHECKING:
-    from simart_kit import Mesh
+    from simart_kit import Mesh, Segmentation
     from simart_kit.spec.values import Spec
-
-_MOST_PIECES = 600
 
 
 class Geometric(Segmenter):
@@ -48,52 +38,8 @@ class Geometric(Segmenter):
         return self._segmented(mesh, spec)
 
     def _segmented(self, mesh: Mesh, spec: Spec | None) -> Segmentation:
-        segments = find_segments(mesh, np.deg2rad(self.options.crease), self.options.node_hint)
-        # Segments come largest first: what is beyond the most pieces counts as one, and stays with the body.
-        scene = make_scene(mesh, np.minimum(segments.face_segment, _MOST_PIECES))
-        movers = _find(scene, segments, spec)[: self.options.max_parts]
-        face_part = np.zeros(len(mesh.faces), dtype=np.int32)
-        for number, mover in enumerate(movers, start=1):
-            face_part[scene.faces_of(mover.pieces)] = number
-        guesses = [PartGuess("body", label="body")]
-        for mover, name in zip(movers, names(scene, movers), strict=True):
-            told = "; ".join(mover.evidence)
-            guesses.append(PartGuess(name, label=mover.label, score=mover.score, description=told))
-        return Segmentation(
-            frozen_ints(face_part),
-            tuple(guesses),
-            face_segment=segments.face_segment,
-            notes=_notes(segments, movers),
-        )
+        from .parts import parts_of
 
-
-def _find(scene: Scene, segments: Segments, spec: Spec | None) -> list[Mover]:
-    # So many patches are the noise of a scanned or generated skin: what they suggest is not there.
-    if segments.count == 1 or (segments.patches and segments.count > _MOST_PIECES):
-        return []
-    contacts = Contacts(scene)
-    movers = front_movers(scene, contacts, segments.patches)
-    taken = {piece for mover in movers for piece in mover.pieces}
-    rolling = [m for m in wheels(scene, contacts) if not taken.intersection(m.pieces)]
-    taken.update(piece for mover in rolling for piece in mover.pieces)
-    found = movers + rolling + knobs(scene, taken)
-    if spec is not None:
-        from .honouring import chosen_movers
-
-        used = {piece for mover in found for piece in mover.pieces}
-        found = chosen_movers(spec, scene, found, lambda: doubtful_movers(scene, contacts, used))
-    return sorted(found, key=lambda mover: -mover.score)
-
-
-def _notes(segments: Segments, movers: list[Mover]) -> tuple[Note, ...]:
-    notes = (Note("segment", "info", segments.describe()), Note("segment", "info", _told(movers)))
-    if not segments.patches:
-        return notes
-    text = "the surface is one fused skin, in which little can be told apart without weights: look at it"
-    return (*notes, Note("segment", "warning", text))
-
-
-def _told(movers: list[Mover]) -> str:
-    if not movers:
-        return "nothing was found that moves: the object is taken as static"
-    return "; ".join(f"{m.label}: {', '.join(m.evidence) or 'by its place'}" for m in movers)
+        options = self.options
+        crease = float(np.deg2rad(options.crease))
+        return parts_of(mesh, spec, options.max_parts, crease, options.node_hint)

@@ -9,7 +9,6 @@ from pydantic import Field
 from simart_kit import Note, Segmentation, Segmenter
 
 from .labelling import TransferOptions
-from .looking import Vision
 from .opening import ModelOptions, open_partner
 
 if TYPE_CHECKING:
@@ -34,7 +33,7 @@ class Simart(Segmenter):
             default="", description="Picture of the object for the model; empty: one of the mesh."
         )
         text: str = Field(default="", description='What the object is, such as "a fridge".')
-        vision: Vision = Field(
+        vision: Literal["auto", "on", "off"] = Field(
             default="auto", description="Show the model a picture, or do as in its training (auto)."
         )
         seeds: Literal["auto", "codes", "cells"] = Field(

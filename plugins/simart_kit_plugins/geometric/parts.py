@@ -1,0 +1,84 @@
+"""Segments grouped into parts that can move, without any weights."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from simart_kit import Note, PartGuess, Segmentation
+from simart_kit.arrays import frozen_ints
+from simart_kit.segments import Segments, find_segments
+
+from .contact import Contacts
+from .movers import Mover, doubtful_movers, front_movers
+from .naming import names
+from .rounds import knobs, wheels
+from .scene import Scene, make_scene
+
+if TYPE_CHECKING:
+    from simart_kit import Mesh
+    from simart_kit.spec.values import Spec
+
+_MOST_PIECES = 600
+
+
+def parts_of(mesh: Mesh, spec: Spec | None, max_parts: int, crease: float, node_hint: bool) -> Segmentation:
+    """The body as part 0, then the surest movers.
+
+    Args:
+        mesh: of an object.
+        spec: what is stated of its parts, or None.
+        max_parts: most moving parts.
+        crease: angle that bounds patches of a skin [rad].
+        node_hint: whether scene-graph nodes stay apart.
+    """
+    segments = find_segments(mesh, crease, node_hint)
+    # Segments come largest first: what is beyond the most pieces counts as one, and stays with the body.
+    scene = make_scene(mesh, np.minimum(segments.face_segment, _MOST_PIECES))
+    movers = _find(scene, segments, spec)[:max_parts]
+    face_part = np.zeros(len(mesh.faces), dtype=np.int32)
+    for number, mover in enumerate(movers, start=1):
+        face_part[scene.faces_of(mover.pieces)] = number
+    guesses = [PartGuess("body", label="body")]
+    for mover, name in zip(movers, names(scene, movers), strict=True):
+        told = "; ".join(mover.evidence)
+        guesses.append(PartGuess(name, label=mover.label, score=mover.score, description=told))
+    return Segmentation(
+        frozen_ints(face_part),
+        tuple(guesses),
+        face_segment=segments.face_segment,
+        notes=_notes(segments, movers),
+    )
+
+
+def _find(scene: Scene, segments: Segments, spec: Spec | None) -> list[Mover]:
+    # So many patches are the noise of a scanned or generated skin: what they suggest is not there.
+    if segments.count == 1 or (segments.patches and segments.count > _MOST_PIECES):
+        return []
+    contacts = Contacts(scene)
+    movers = front_movers(scene, contacts, segments.patches)
+    taken = {piece for mover in movers for piece in mover.pieces}
+    rolling = [m for m in wheels(scene, contacts) if not taken.intersection(m.pieces)]
+    taken.update(piece for mover in rolling for piece in mover.pieces)
+    found = movers + rolling + knobs(scene, taken)
+    if spec is not None:
+        from .honouring import chosen_movers
+
+        used = {piece for mover in found for piece in mover.pieces}
+        found = chosen_movers(spec, scene, found, lambda: doubtful_movers(scene, contacts, used))
+    return sorted(found, key=lambda mover: -mover.score)
+
+
+def _notes(segments: Segments, movers: list[Mover]) -> tuple[Note, ...]:
+    notes = (Note("segment", "info", segments.describe()), Note("segment", "info", _told(movers)))
+    if not segments.patches:
+        return notes
+    text = "the surface is one fused skin, in which little can be told apart without weights: look at it"
+    return (*notes, Note("segment", "warning", text))
+
+
+def _told(movers: list[Mover]) -> str:
+    if not movers:
+        return "nothing was found that moves: the object is taken as static"
+    return "; ".join(f"{m.label}: {', '.join(m.evidence) or 'by its place'}" for m in movers)
