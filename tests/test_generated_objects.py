@@ -89,6 +89,22 @@ def test_joints_posed_ajar_stay_between_their_limits_and_can_go_back():
     assert ajar(MADE, Dice(3), share=0.0).bodies[1].motion.upper == MADE.bodies[1].motion.upper
 
 
+def rack(made=MADE):
+    """The same with a tray right behind the door, which slides out to where that is."""
+    tray = surface([between((0.1, 0.01, 1.0), (0.9, 0.4, 1.1))], STEEL)
+    bodies = (*made.bodies, Body("rack", "rack", (tray,), 0, slide((0, -1, 0), 0.3)))
+    return GeneratedObject("wardrobe", bodies)
+
+
+def test_a_rack_stays_behind_a_closed_door_and_comes_out_of_an_open_one():
+    held = [ajar(rack(), Dice((3, k)), share=0.5) for k in range(40)]
+    opened = [made.bodies[1].motion.upper < np.pi / 2 - 1e-9 for made in held]
+    # The door's back is 1 cm before it.
+    out = [made.bodies[4].motion.upper < 0.3 - 0.015 for made in held]
+    assert not any(o for o, open_ in zip(out, opened, strict=True) if not open_)
+    assert any(out)
+
+
 def test_wheels_turn_balls_turn_and_free_lids_stay():
     motions = (spin((0.5, 0.25, 1), (0, 1, 0)), ball((0.5, 0.25, 1)), free())
     cube = surface([between((0.4, 0.2, 0.9), (0.6, 0.3, 1.1))], STEEL)

@@ -107,10 +107,12 @@ def _between_ends(
     """A pencil drawer, several of them, a keyboard tray, or an apron; and a panel at the back."""
     left, right = ends
     y, tall = depth / 2, dice.between(0.06, 0.14)
-    if dice.chance(0.5):
-        low = dice.between(0.1, 0.6) * high
-        made.fix([between((left, y - 0.03, low), (right, y - 0.015, high))], look)
+    panel = dice.between(0.1, 0.6) * high if dice.chance(0.5) else None
     kind = dice.weighted([(5, "drawers"), (2, "tray"), (2, "apron"), (1, "back"), (3, "nothing")])
+    from_behind = kind == "back" and abs(left + right) < 0.05
+    if panel is not None:
+        top = high - tall if from_behind else high
+        made.fix([between((left, y - 0.03, panel), (right, y - 0.015, top))], look)
     if kind == "tray":
         made.add(_keyboard_tray(dice, style, ends, depth, high))
         return
@@ -130,7 +132,7 @@ def _between_ends(
     for cell in room.columns([1.0] * count, slim):
         leaf = leaves.drawer(dice, style, cell, "pencil_drawer" if count == 1 else "drawer")
         # Some desks are used from both sides, or have theirs at the back only.
-        made.add(leaves.facing(leaf, 2) if kind == "back" and abs(left + right) < 0.05 else leaf)
+        made.add(leaves.facing(leaf, 2) if from_behind else leaf)
     for cell in room.columns([1.0] * count, slim)[1:]:
         made.fix([between((cell.left - slim, -y + 0.02, high - tall), (cell.left, -y + behind, high))], look)
 

@@ -195,13 +195,17 @@ def _top_loader(dice: Dice) -> list[Body]:
     shape = moved(drum, (0, center, height * 0.25))
     kit.add("drum", spin((0, center, height * 0.25), (0, 0, 1)), [(shape, looks.metal(dice))])
     if console:
-        _console(dice, kit, (width, depth, height), console, coat)
+        foot = _console(dice, kit, (width, depth, height), console, coat)
+        # The case goes on under the knobs: the lid is hung where it passes them.
+        low, high = (-width / 2, depth / 2 - foot, height - 0.01), (width / 2, depth / 2 - console, height)
+        kit.fix([between(low, high)], coat)
+        console = foot
     _lid(dice, kit, (width, depth, height), console, coat)
     return kit.done()
 
 
-def _console(dice: Dice, kit: Assembly, size: _Size, deep: float, coat: Look) -> None:
-    """A block at the back with knobs, its face sloped."""
+def _console(dice: Dice, kit: Assembly, size: _Size, deep: float, coat: Look) -> float:
+    """A block at the back with knobs, its face sloped; how far from the back a lid has to stay clear [m]."""
     width, depth, height = size
     tall, slope = dice.between(0.06, 0.2), dice.between(0.0, 0.6)
     profile = loft(SQUARE, [(0, 0, 0), (width, deep, 0), (width, deep * (1 - slope), tall), (0, 0, tall)])
@@ -211,12 +215,15 @@ def _console(dice: Dice, kit: Assembly, size: _Size, deep: float, coat: Look) ->
     lean = rotation((1, 0, 0), -np.arctan2(deep * slope, tall))
     count, dark = dice.whole(1, 4), looks.plastic(dice)
     radius = min(tall * 0.35, 0.035)
-    seed = dice.whole(0, 2**31)
+    seed, front = dice.whole(0, 2**31), depth / 2 - deep
     for k in range(count):
         x = (k + 0.5 - count / 2) * width / (count + 0.5)
         spot = (x, depth / 2 - deep + deep * slope / 2, height + tall / 2)
         shape = moved(turned(dial(Dice(seed), radius), lean), spot)
+        front = min(front, *(float(piece[..., 1].min()) for piece in shape))
         kit.add("knob", turning(Dice(seed + 1), spot, lean @ [0, 1, 0]), [(shape, dark)])
+    # Lids open a little beyond upright.
+    return depth / 2 - front + 0.1 * tall
 
 
 def _lid(dice: Dice, kit: Assembly, size: _Size, console: float, coat: Look) -> None:
@@ -250,7 +257,8 @@ def _lid(dice: Dice, kit: Assembly, size: _Size, console: float, coat: Look) -> 
     if dice.chance(0.7):
         grip = moved(holder(dice, width * 0.3), (0, front, height + gap + thick / 2))
         parts.append((grip, looks.darker(coat, 0.6)))
-    kit.add("lid", lift(hinge_y, height + gap, dice.between(1.2, 1.65)), parts)
+    # Hung at its upper edge, so that opened it stands before its hinge.
+    kit.add("lid", lift(hinge_y, height + gap + thick, dice.between(1.2, 1.65)), parts)
 
 
 CATEGORIES: tuple[Category, ...] = (Category("washing_machine", _washer), Category("dryer", _dryer))

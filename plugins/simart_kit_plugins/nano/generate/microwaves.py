@@ -157,27 +157,34 @@ def _dishwasher(dice: Dice) -> list[Body]:
         kit.fix(
             [box((width * 1.02, depth * 1.05, 0.025), (0, 0, plinth + height + 0.0125))], looks.wood(dice)
         )
-    inside = (width - 2 * wall - 0.03, depth - wall - 0.04)
+    inside, room = (width - 2 * wall - 0.03, depth - wall - 0.05), height - 2 * wall
+    # Racks are clear of what stands off the door's inside, and of the lining at the back.
+    middle = (0.018 - wall) / 2
     count, floor = dice.whole(1, 2), plinth + wall
     for k in range(count):
-        level = floor + (height - 2 * wall) * (0.1 + 0.5 * k)
-        _basket(dice, kit, inside, level, (height - 2 * wall) * dice.between(0.15, 0.3))
+        level = floor + room * (0.1 + 0.5 * k)
+        rise = room * dice.between(0.15, 0.3)
+        _basket(dice, kit, inside, (middle, level), min(rise, room * (0.9 - 0.5 * k) - 0.09))
         if dice.chance(0.5):
             _arm(dice, kit, 0.42 * min(inside), level - 0.025 - 0.01 * k, k > 0)
     if count == 2 and dice.chance(0.3):
-        _basket(dice, kit, inside, plinth + height - wall - 0.06, 0.02)
+        _basket(dice, kit, inside, (middle, plinth + height - wall - 0.06), 0.02)
     _dish_door(dice, kit, (width, height, wall), (thick, -depth / 2 - 0.003, plinth), coat)
     return kit.done()
 
 
-def _basket(dice: Dice, kit: Assembly, inside: tuple[float, float], level: float, rise: float) -> None:
-    shape = moved(rack(dice, *inside, rise), (0, 0, level))
+def _basket(
+    dice: Dice, kit: Assembly, inside: tuple[float, float], place: tuple[float, float], rise: float
+) -> None:
+    """A rack about a place (y, z) that slides out, some with a basket for cutlery in it."""
+    middle, level = place
+    shape = moved(rack(dice, *inside, rise), (0, middle, level))
     number = kit.add("rack", pull(inside[1] * dice.between(0.7, 0.95)), [(shape, looks.metal(dice))])
     if rise > 0.05 and dice.chance(0.3):
         size = (dice.between(0.08, 0.14), dice.between(0.15, 0.24), rise * 0.9)
-        spot = (dice.sign() * (inside[0] / 2 - size[0] / 2 - 0.01), 0, level + 0.006)
+        spot = (dice.sign() * (inside[0] / 2 - size[0] / 2 - 0.01), middle, level + 0.006)
         tub = moved([open_box(size, 0.004)], spot)
-        cross = box((size[0], 0.004, size[2]), (spot[0], 0, level + size[2] / 2 + 0.006))
+        cross = box((size[0], 0.004, size[2]), (spot[0], middle, level + size[2] / 2 + 0.006))
         look = looks.plastic(dice)
         if dice.chance(0.5):
             kit.fix([*tub, cross], look, number)
