@@ -36,6 +36,7 @@ DEFAULT_PLUGINS = (
     "simart_kit_plugins.modifiers.mass",
     "simart_kit_plugins.modifiers.dynamics",
     "simart_kit_plugins.modifiers.collision",
+    "simart_kit_plugins.modifiers.clear",
     "simart_kit_exporters.urdf",
     "simart_kit_exporters.mjcf",
     "simart_kit_exporters.usd",

@@ -72,19 +72,21 @@ def overlaps(asset: Asset, positions: Positions | None = None) -> tuple[Overlap,
 
 
 def overlaps_on_the_way(asset: Asset, stops: int = 9) -> tuple[Overlap, ...]:
-    """Pairs of a part and the one that it moves on, whose shapes overlap somewhere on the joint's own way.
+    """Pairs of a part and one that it moves on, whose shapes overlap somewhere on the joint's own way.
 
-    Shapes are coarser than surfaces, and such a pair would stop a door short of its limit.
+    Shapes are coarser than surfaces, and such a pair would stop a door short of its limit. What is fixed to
+    either part of a joint counts as that part.
 
     Args:
         asset: with collision shapes.
         stops: positions tried between the limits of each joint, both included.
     """
-    found: dict[tuple[str, str], float] = {}
+    found, bodies = dict[tuple[str, str], float](), rigid_bodies(asset)
     for joint in asset.joints:
         if span(joint) == (0.0, 0.0):
             continue
-        pair = {joint.parent, joint.child}
+        both = [bodies[asset.part_index(name)] for name in (joint.parent, joint.child)]
+        pair = {part.name for part, body in zip(asset.parts, bodies, strict=True) if body in both}
         for position in np.linspace(*span(joint), stops):
             for item in overlaps(_only(asset, pair), {joint.name: float(position)}):
                 key = (item.one, item.other)

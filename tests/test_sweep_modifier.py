@@ -95,20 +95,25 @@ class TestStuck:
 
     def test_it_goes_no_farther_than_is_free_and_is_flagged(self) -> None:
         asset = self.asset()
-        result = Sweep().modify(asset).joint("hinge")
+        result = Sweep(Sweep.Options(stuck="flag")).modify(asset).joint("hinge")
         assert result.limits is not None
         assert result.limits.lower == 0.0
         assert 5.0 <= np.degrees(result.limits.upper) <= 9.0
         (flag,) = result.flags
-        assert flag.startswith("sweep: blocked after ")
+        assert flag.startswith("sweep: revolute blocked after ")
         assert flag.endswith(" degrees of 0 degrees .. 90 degrees")
         assert replace(result, flags=(), limits=asset.joint("hinge").limits) == asset.joint("hinge")
+
+    def test_unless_asked_otherwise_it_is_held_fixed_and_keeps_its_flag(self) -> None:
+        result = Sweep().modify(self.asset()).joint("hinge")
+        assert (result.kind, result.limits) == ("fixed", None)
+        assert result.flags[0].startswith("sweep: revolute blocked after ")
 
     def test_a_warning_says_so(self) -> None:
         (note,) = Sweep().modify(self.asset()).notes
         assert (note.stage, note.level) == ("sweep", "warning")
         assert note.text.startswith("hinge is blocked after ")
-        assert note.text.endswith("its axis may be wrong, look at it")
+        assert note.text.endswith("held fixed: its axis may be wrong, look at it")
 
     def test_earlier_flags_stay(self) -> None:
         assert Sweep().modify(self.asset(flags=("doubtful",))).joint("hinge").flags[0] == "doubtful"

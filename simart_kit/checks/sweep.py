@@ -93,17 +93,19 @@ class JointSweep(Check):
 def _passing(subject: Subject) -> set[str]:
     """Pairs of an asset that its file need not exclude on their joint's way: MuJoCo lets them pass unasked.
 
-    These are a part and the one that it moves on, unless that one is fixed to the world.
+    These are a part and the one that it moves on, with what is fixed to either, unless that one is fixed to
+    the world.
     """
-    from ..separation import overlaps_on_the_way
+    from ..separation import overlaps_on_the_way, rigid_bodies
 
     if subject.asset is None:
         return set()
-    model = subject.simulation.model
+    model, asset, bodies = subject.simulation.model, subject.asset, rigid_bodies(subject.asset)
     moved = {body_name(model, body) for body in range(model.nbody) if model.body_weldid[body]}
-    jointed = {frozenset((j.parent, j.child)) for j in subject.asset.joints if j.parent in moved}
-    met = ((found.one, found.other) for found in overlaps_on_the_way(subject.asset))
-    return {" in ".join(sorted(pair)) for pair in met if frozenset(pair) in jointed}
+    group = {part.name: int(body) for part, body in zip(asset.parts, bodies, strict=True)}
+    jointed = {frozenset((group[j.parent], group[j.child])) for j in asset.joints if j.parent in moved}
+    met = ((found.one, found.other) for found in overlaps_on_the_way(asset))
+    return {" in ".join(sorted(pair)) for pair in met if frozenset(group[n] for n in pair) in jointed}
 
 
 def _faults(model: mujoco.MjModel, joint: int, places: FloatArray, others: FloatArray) -> list[Fault]:

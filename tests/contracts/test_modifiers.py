@@ -33,3 +33,7 @@ class TestDynamics(ModifierContract):
 
 class TestCollision(ModifierContract):
     stage = BUILT_IN.find("modifier", "collision").value
+
+
+class TestClear(ModifierContract):
+    stage = BUILT_IN.find("modifier", "clear").value

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from pydantic import Field
@@ -17,8 +17,10 @@ if TYPE_CHECKING:
 
 
 class Sweep(Modifier):
-    """Shortens limits to what is free, so that no part goes through another; flags a joint that is stuck.
+    """Shortens limits to what is free, so that no part goes through another; holds fixed what is stuck.
 
+    A joint that comes no farther than a quarter of its way has the wrong axis, mostly: fixed and flagged it
+    harms nothing.
     What its own joint takes out of the way is no obstacle: a rack keeps its range behind a door, and a note.
     """
 
@@ -35,11 +37,17 @@ class Sweep(Modifier):
             le=1,
             description="Share of the wanted travel below which a joint counts as stuck.",
         )
+        stuck: Literal["fix", "flag"] = Field(
+            default="fix",
+            description="What becomes of a stuck joint, which is flagged and told: fix holds it fixed, "
+            "flag leaves it what is free.",
+        )
 
     options: Options
 
     def modify(self, asset: Asset) -> Asset:
         """The asset with limits that surfaces allow; notes tell each change, warnings each stuck joint."""
+        from simart_kit.clearing import held
         from simart_kit.waiting import free_ranges, sinks
 
         changed: dict[str, Joint] = {}
@@ -56,8 +64,11 @@ class Sweep(Modifier):
                 continue
             if stops:
                 blocked = f"blocked after {_amount(joint, max(free.upper, -free.lower))} of {before}"
-                changed[name] = replace(short, flags=(*joint.flags, f"sweep: {blocked}"))
-                stuck.append(f"{name} is {blocked}: its axis may be wrong, look at it")
+                fixes = self.options.stuck == "fix"
+                flag = f"sweep: {joint.kind} {blocked}"
+                changed[name] = held(joint, flag) if fixes else replace(short, flags=(*joint.flags, flag))
+                how = ", held fixed" if fixes else ""
+                stuck.append(f"{name} is {blocked}{how}: its axis may be wrong, look at it")
                 continue
             if short.limits != joint.limits:
                 changed[name] = short
