@@ -10,7 +10,7 @@ import numpy as np
 from simart_kit.arrays import FloatArray
 from simart_kit.asset import Asset, Joint, MassProperties
 from simart_kit.kinematics import ordered_joints, rest_origin
-from simart_kit.mujoco_joints import STIFF_FRICTION, joint_type
+from simart_kit.mujoco_joints import STIFF_FRICTION, STIFF_LIMIT, joint_type
 
 from .gaps import rigid
 
@@ -72,6 +72,7 @@ def _add_joint(body: mujoco.MjsBody, joint: Joint) -> None:
         added.solimp_friction = STIFF_FRICTION
     if joint.limits:
         added.range = [joint.limits.lower, joint.limits.upper]
+        added.solref_limit = STIFF_LIMIT
     if joint.kind != "ball" and joint.effort > 0:
         added.actfrclimited = mujoco.mjtLimited.mjLIMITED_TRUE
         added.actfrcrange = [-joint.effort, joint.effort]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays import FloatArray
-from ..mujoco_joints import STIFF_FRICTION, joint_type
+from ..mujoco_joints import STIFF_FRICTION, STIFF_LIMIT, joint_type
 from .mechanism import WORLD, Body, Link, Mechanism
 
 if TYPE_CHECKING:
@@ -69,3 +69,4 @@ def _add_joint(body: mujoco.MjsBody, link: Link) -> None:
     if link.lower is not None and link.upper is not None:
         joint.range = [link.lower, link.upper]
         joint.limited = mujoco.mjtLimited.mjLIMITED_TRUE
+        joint.solref_limit = STIFF_LIMIT
