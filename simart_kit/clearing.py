@@ -42,7 +42,7 @@ class Clearing:
         return (self.free[1] - self.free[0]) / (self.wanted[1] - self.wanted[0])
 
 
-def cleared(asset: Asset, least: float) -> tuple[Asset, dict[str, Clearing]]:
+def cleared(asset: Asset, least: float, sure: float) -> tuple[Asset, dict[str, Clearing]]:
     """The asset with joints that go no farther than shapes let them, and what became of each that is stopped.
 
     Of joints that block each other, that one gives way first which loses least. Where none would keep enough,
@@ -52,6 +52,8 @@ def cleared(asset: Asset, least: float) -> tuple[Asset, dict[str, Clearing]]:
     Args:
         asset: with collision shapes.
         least: share of its travel that a joint has to keep, or else it is held fixed.
+        sure: confidence from which on a joint that would be held fixed is left as it is: then the shapes are
+            wrong, not the joint.
     """
     found: dict[str, Clearing] = {}
     if not all(part.collision for part in asset.parts):
@@ -68,7 +70,7 @@ def cleared(asset: Asset, least: float) -> tuple[Asset, dict[str, Clearing]]:
             asset = asset.with_joints({name: _shortened(joint, stopped[name].free)})
             index = model.joint(name).id
             model.jnt_limited[index], model.jnt_range[index] = True, stopped[name].free
-        else:
+        elif joint.confidence < sure:
             asset = asset.with_joints({name: held(joint, _why(joint, stopped[name]))})
             model = _model(asset)
     return asset, found

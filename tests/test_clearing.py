@@ -1,6 +1,7 @@
 """Ranges end where collision shapes meet, and what they block is held fixed."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -64,14 +65,15 @@ def test_a_slide_ends_before_a_shape_that_stands_still() -> None:
 
 def test_what_a_door_takes_out_of_the_way_is_no_obstacle() -> None:
     asset = assembled([slide("drawer", 0.3), door(np.pi / 2)], drawer=DRAWER, wall=wall(0.01))
-    assert cleared(asset, 0.25) == (asset, {})
+    assert cleared(asset, 0.25, 0.9) == (asset, {})
 
 
 def test_what_hardly_moves_is_held_fixed_flagged_and_told() -> None:
     """Two drawers face each other across 2 cm, and one of them goes up by a millimetre only."""
     facing: Bounds = ((0.1, -0.42, 0.2), (0.5, -0.02, 0.3))
     joints = [slide("drawer", 0.3), slide("other", 0.001, (0, 0, 1))]
-    result = Clear().modify(assembled(joints, drawer=DRAWER, other=facing))
+    doubtful = [replace(joint, confidence=0.6) for joint in joints]
+    result = Clear().modify(assembled(doubtful, drawer=DRAWER, other=facing))
     joint = result.joint("drawer_slide")
     assert joint.kind == "fixed"
     assert joint.flags[0].startswith("clear: prismatic 0.000 m .. 0.300 m, collision shapes leave 0.000 m")
@@ -80,9 +82,19 @@ def test_what_hardly_moves_is_held_fixed_flagged_and_told() -> None:
     assert (note.stage, note.level) == ("clear", "warning")
 
 
+def test_a_joint_that_is_sure_is_not_held_fixed_by_coarse_shapes() -> None:
+    facing: Bounds = ((0.1, -0.42, 0.2), (0.5, -0.02, 0.3))
+    asset = assembled([slide("drawer", 0.3), slide("other", 0.001, (0, 0, 1))], drawer=DRAWER, other=facing)
+    result = Clear().modify(asset)
+    assert result.joints == asset.joints
+    (note,) = result.notes
+    assert note.level == "warning"
+    assert note.text.startswith("drawer_slide is blocked by collision shapes")
+
+
 def test_a_part_fixed_to_the_base_is_no_more_in_the_way_than_the_base() -> None:
     joints = [slide("drawer", 0.3), fixed("wall")]
-    assert cleared(assembled(joints, drawer=DRAWER, wall=wall(0.2)), 0.25)[1] == {}
+    assert cleared(assembled(joints, drawer=DRAWER, wall=wall(0.2)), 0.25, 0.9)[1] == {}
 
 
 def test_what_cannot_turn_round_turns_between_limits() -> None:
@@ -94,7 +106,7 @@ def test_what_cannot_turn_round_turns_between_limits() -> None:
         sk.Joint("post_slide", "prismatic", "base", "post", axis=(0, 0, 1), limits=sk.Limits(0, 0.05)),
     ]
     asset = assembled(joints, arm=arm, post=post)
-    joint = cleared(asset, 0.25)[0].joint("arm_spin")
+    joint = cleared(asset, 0.25, 0.9)[0].joint("arm_spin")
     assert joint.kind == "revolute"
     assert joint.limits is not None
     # Half widths of arm and post together, seen from 0.3 m away, are 8 degrees; steps are of 6.
@@ -105,4 +117,4 @@ def test_what_cannot_turn_round_turns_between_limits() -> None:
 def test_parts_without_shapes_are_left_alone() -> None:
     asset = assembled([slide("drawer", 0.3)], drawer=DRAWER)
     bare = asset.with_parts({"drawer": sk.Part("drawer")})
-    assert cleared(bare, 0.25) == (bare, {})
+    assert cleared(bare, 0.25, 0.9) == (bare, {})
