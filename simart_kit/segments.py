@@ -47,15 +47,19 @@ class Segments:
         return text
 
 
-def find_segments(mesh: Mesh, crease: float = CREASE_ANGLE, node_hint: bool = False) -> Segments:
+def find_segments(
+    mesh: Mesh, crease: float = CREASE_ANGLE, node_hint: bool = False, vertex: IntArray | None = None
+) -> Segments:
     """Cut a mesh into segments.
 
     Args:
         mesh: faces keep their order; nothing is removed from it.
         crease: dihedral angle that bounds the patches of a fused component [rad].
         node_hint: never join faces of different scene-graph nodes.
+        vertex: (V,) welded id of every vertex, as `weld` gives it with `WELD_TOLERANCE`, where known.
     """
-    vertex = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE)
+    if vertex is None:
+        vertex = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE)
     corners = vertex[mesh.faces]
     degenerate = _degenerate(mesh, corners)
     first = first_alike(corners)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
@@ -83,12 +84,16 @@ def transfer(
             "find them on the same mesh"
         )
     known = _part_seeds(seeds, mesh, sigma)
-    if mode == "segments" and segments is None:
-        segments = find_segments(mesh)
-    vertex = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE) if segments is None else segments.vertex
-    vertex, points, faces = _welded(mesh, vertex)
-    inside = inside_points(points, faces, known.sigma)
-    likely, label, margin = _voted(known, points, faces, inside, iterations)
+    place = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE) if segments is None else segments.vertex
+    vertex, points, faces = _welded(mesh, place)
+    with ThreadPoolExecutor(1) as beside:
+        # Neither needs the other: segments are found on one core while the seeds vote on another.
+        finding = None
+        if mode == "segments" and segments is None:
+            finding = beside.submit(find_segments, mesh, vertex=place)
+        inside = inside_points(points, faces, known.sigma)
+        likely, label, margin = _voted(known, points, faces, inside, iterations)
+        segments = segments if finding is None else finding.result()
     if mode == "segments" and segments is not None:
         weight = mesh.face_areas * margin
         label = agree_in_segments(label, weight, segments.face_segment, known.count, agreement)
