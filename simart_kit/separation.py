@@ -21,6 +21,7 @@ TOLERANCE = 1e-5
 CLEARANCE = 0.0005
 """How far shapes of neighbours are kept apart at rest [m]: what touches at rest rubs and sticks."""
 
+_NEAR_REST = (0.02, 0.05, 0.09)  # of the way to each limit
 _MOST_OF_SHAPE = 0.25  # of its extent that a shape may lose on one side
 
 
@@ -79,7 +80,7 @@ def overlaps_on_the_way(asset: Asset, stops: int = 9) -> tuple[Overlap, ...]:
 
     Args:
         asset: with collision shapes.
-        stops: positions tried between the limits of each joint, both included.
+        stops: positions tried between the limits of each joint, both included, besides some near rest.
     """
     found, bodies = dict[tuple[str, str], float](), rigid_bodies(asset)
     for joint in asset.joints:
@@ -87,13 +88,19 @@ def overlaps_on_the_way(asset: Asset, stops: int = 9) -> tuple[Overlap, ...]:
             continue
         both = [bodies[asset.part_index(name)] for name in (joint.parent, joint.child)]
         pair = {part.name for part, body in zip(asset.parts, bodies, strict=True) if body in both}
-        for position in np.linspace(*span(joint), stops):
-            for item in overlaps(_only(asset, pair), {joint.name: float(position)}):
+        for position in _stops(span(joint), stops):
+            for item in overlaps(_only(asset, pair), {joint.name: position}):
                 key = (item.one, item.other)
                 found[key] = max(item.depth, found.get(key, 0.0))
     order = {part.name: index for index, part in enumerate(asset.parts)}
     keys = sorted(found, key=lambda key: (order[key[0]], order[key[1]]))
     return tuple(Overlap(*key, found[key]) for key in keys)
+
+
+def _stops(ends: tuple[float, float], count: int) -> list[float]:
+    """Positions from end to end, closer to each other near rest, where the edges of a panel pass its frame."""
+    near = [share * end for end in ends for share in _NEAR_REST]
+    return sorted({0.0, *near, *np.linspace(*ends, count).tolist()})
 
 
 def separated(asset: Asset, margin: float, clearance: float = CLEARANCE) -> Asset:
