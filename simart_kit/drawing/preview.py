@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -54,11 +55,16 @@ def _moving_panels(asset: Asset) -> dict[str, Image.Image]:
     casters = {name: Rays(meshes[name].vertices, meshes[name].faces) for name in ("closed", "open")}
     camera = _camera(casters["closed"], casters["open"], np.concatenate(shown))
     ground = min(float(m.bounds[0, 2]) for m in meshes.values())
-    panels = {"closed": _view(meshes["closed"], camera, ground, None, casters["closed"])}
-    for name, strokes in marks.items():
-        picture = _view(meshes[name], camera, ground, _paint(asset), casters.get(name))
-        panels[name] = _drawn_over(picture, strokes, camera)
-    return panels
+    paint = _paint(asset)
+
+    def seen(name: str) -> Image.Image:
+        own = paint if name in marks else None
+        picture = _view(meshes[name], camera, ground, own, casters.get(name))
+        return _drawn_over(picture, marks[name], camera) if name in marks else picture
+
+    # Casting rays and adding arrays, threads hold each other up little.
+    with ThreadPoolExecutor() as pool:
+        return dict(zip(_FRACTIONS, pool.map(seen, _FRACTIONS), strict=True))
 
 
 def _static_panels(asset: Asset) -> dict[str, Image.Image]:
