@@ -98,7 +98,7 @@ def overlaps_on_the_way(asset: Asset, stops: int = 9) -> tuple[Overlap, ...]:
 
 
 def _stops(ends: tuple[float, float], count: int) -> list[float]:
-    """Positions from end to end, closer to each other near rest, where the edges of a panel pass its frame."""
+    """Positions from end to end, closer to each other near rest, where edges of a panel pass its frame."""
     near = [share * end for end in ends for share in _NEAR_REST]
     return sorted({0.0, *near, *np.linspace(*ends, count).tolist()})
 

@@ -26,6 +26,8 @@ VOTES = 4
 _MANY = 256
 # Less sure groups of pieces are not looked at.
 _WORTH = 0.3
+# Share of the surface that a part which lies loose may have.
+_CARRIED = 0.5
 # An object of a known category is recognised from this chance on; less of its parts' sureness is enough then.
 _KNOWN, _EASE = 0.7, 0.4
 
@@ -100,7 +102,7 @@ def predict(network: ArrayNetwork, cloud: Cloud, least: float, votes: int = VOTE
     said = say(network, cloud, _votes(cloud, votes))
     area = _areas(cloud)
     found = [g for g in groups(said.moves, said.together, area, _WORTH) if len(g.pieces) < cloud.count]
-    every = _parts(network, said, cloud, found)
+    every = tuple(plausible(part, area) for part in _parts(network, said, cloud, found))
     names = network.config.categories
     best = int(said.category.argmax())
     name = names[best - 1] if best else ""
@@ -111,6 +113,12 @@ def predict(network: ArrayNetwork, cloud: Cloud, least: float, votes: int = VOTE
     doubtful = tuple(part for part in every if part.certainty < least)
     piece_part = piece_parts([part.pieces for part in parts], cloud.count)
     return Prediction(parts, doubtful, piece_part, said.moves, name, recognised, chances, said.size)
+
+
+def plausible(part: PredictedPart, area: FloatArray) -> PredictedPart:
+    """The part; not sure at all where it lies loose and is most of the object: no body would carry it."""
+    loose = part.kind == "free" and area[part.pieces].sum() > _CARRIED * area.sum()
+    return replace(part, certainty=0.0) if loose else part
 
 
 def _sure(every: Sequence[PredictedPart], least: float) -> tuple[PredictedPart, ...]:
