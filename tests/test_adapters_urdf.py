@@ -275,7 +275,7 @@ def test_a_conversion_takes_the_joints_of_the_file_whatever_the_recipe(
     assert limits is not None
     assert (limits.lower, limits.upper) == (-1.5, 1.5)
     texts = [note.text for note in result.report.notes]
-    assert "the file states its joints, so they are left as they are by snap, sweep" in texts
+    assert "the file states its joints, so they are left as they are by snap, sweep, clear" in texts
     assert any("the recipe's segmenter and joint predictor are not used" in text for text in texts)
     assert_same_usd(result.paths["usd"], path, result.asset)
     assert len(list((tmp_path / "out" / "usd" / "textures").glob("*.png"))) == 1

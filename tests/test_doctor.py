@@ -201,7 +201,7 @@ def test_broken_weights_of_the_default_recipe_make_the_exit_code_1(folder, monke
     assert run(["doctor"]) == 0
     capfd.readouterr()
     (folder / "model.safetensors").write_bytes(b"")
-    monkeypatch.setattr("simart_kit_plugins.nano.diagnosis._FOLDER", folder)
+    monkeypatch.setattr("simart_kit_plugins.nano.diagnosis.shipped_folder", lambda: folder)
 
     assert run(["doctor"]) == 1
 

@@ -13,6 +13,8 @@ from simart_kit.testing.meshes import boxes_mesh
 from simart_kit.waiting import free_ranges
 
 Bounds = tuple[Sequence[float], Sequence[float]]
+# Leaves a stuck joint what is free.
+FLAGGING = Sweep(Sweep.Options(stuck="flag"))
 # A case that is open in front (-y), inside 1 wide, 1 high and 0.8 deep.
 CASE: list[Bounds] = [
     ((-0.6, 0.0, -0.1), (-0.5, 0.9, 1.1)),
@@ -69,14 +71,14 @@ class TestRack:
 
     def test_a_door_that_hardly_opens_is_no_way_out(self) -> None:
         """At 10 degrees its edge is 0.17 out: the rack still meets it before half its way."""
-        result = Sweep().modify(made(PARTS, RACK_SLIDE, hinge(10))).joint("rack_slide")
+        result = FLAGGING.modify(made(PARTS, RACK_SLIDE, hinge(10))).joint("rack_slide")
         assert result.limits is not None
         assert result.limits.upper < 0.3
         assert result.evidence == ()
 
     def test_a_door_that_is_fixed_is_no_way_out(self) -> None:
         fixed = sk.Joint("door_mount", "fixed", "case", "door")
-        result = Sweep().modify(made(PARTS, RACK_SLIDE, fixed)).joint("rack_slide")
+        result = FLAGGING.modify(made(PARTS, RACK_SLIDE, fixed)).joint("rack_slide")
         assert len(result.flags) == 1
         assert result.limits is not None
         assert result.limits.upper < 0.1
@@ -137,7 +139,7 @@ class TestButton:
 
     @pytest.mark.parametrize(("travel", "size"), [(0.05, 0.05), (0.03, 0.5)])
     def test_not_out_of_sight_and_nothing_large(self, travel: float, size: float) -> None:
-        (joint,) = Sweep().modify(self.pressed(travel, size)).joints
+        (joint,) = FLAGGING.modify(self.pressed(travel, size)).joints
         assert joint.limits is not None
         assert joint.limits.upper < 0.5 * travel
 

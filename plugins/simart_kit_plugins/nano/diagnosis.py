@@ -1,4 +1,4 @@
-"""What nano needs, for `simart-kit doctor`; looked for without importing torch."""
+"""What nano needs, for `simart-kit doctor`; torch only trains it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from .stored_model import shipped_folder
 
 
 def findings() -> list[Finding]:
-    """The libraries of the network, and the weights that come with the package."""
+    """The library that reads the network, and the weights that come with the package."""
     again = "pip install --force-reinstall simart-kit, or train your own with `simart-kit train nano`"
     found = weights("weights of nano", shipped_folder(), again)
-    return [library("torch"), library("safetensors"), found]
+    return [library("safetensors"), found]
