@@ -96,7 +96,7 @@ $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
 
 $(APP): pyproject.toml constraints.txt | $(BIN)/python
-	@echo "installing into $(VENV): a minute or two, about 2 GB"
+	@echo "installing into $(VENV): a minute or two, about 1.4 GB"
 	$(PIP) --editable .
 	@touch $@
 

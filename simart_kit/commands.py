@@ -8,6 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from .extras import EXTRAS
+
 # Groups that take commands of plugins. Those that are not the core's own exist once a command is in them.
 GROUPS = {
     "bench": "Score articulation against ground truth.",
@@ -44,16 +46,20 @@ class PluginCommand:
     Attributes:
         target: "package.module:function"; the function is annotated as typer reads it.
         help: a line for lists of commands.
+        extra: of simart-kit, without which it is refused, such as "torch"; "" for none.
     """
 
     target: str
     help: str
+    extra: str = ""
 
     def __post_init__(self) -> None:
         if not re.fullmatch(r"[\w.]+:\w+", self.target):
             raise ValueError(f"'{self.target}' is not of the form package.module:function")
         if not self.help or "\n" in self.help:
             raise ValueError(f"the help of {self.target} is not one line")
+        if self.extra and self.extra not in EXTRAS:
+            raise ValueError(f"{self.target} needs extra '{self.extra}': there are {', '.join(EXTRAS)}")
 
     def load(self) -> Callable[..., Any]:
         """Import the function; raises whatever its module raises, and AttributeError if it has none."""

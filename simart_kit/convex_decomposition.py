@@ -14,10 +14,11 @@ from typing import Literal
 import numpy as np
 
 from .arrays import FloatArray, IntArray
+from .extras import install_command
 
 Tool = Literal["vhacd", "coacd"]
 _MODULES = {"vhacd": "vhacdx", "coacd": "coacd"}
-_INSTALL = {"vhacd": "pip install vhacdx", "coacd": "pip install 'simart-kit[coacd]'"}
+_INSTALL = {"vhacd": "pip install vhacdx", "coacd": install_command("coacd")}
 _WORKER = (sys.executable, str(Path(__file__).with_name("convex_worker.py")))
 _ASTRAY = 0.1  # of the mesh's size that a hull may reach beyond it
 

@@ -9,6 +9,7 @@ from importlib.metadata import requires, version
 from typing import Any
 
 from .errors import SimartKitError
+from .extras import EXTRAS
 from .findings import Finding, library, named_weights
 from .machine import machine
 from .plugins import Owner, Plugins
@@ -70,8 +71,12 @@ def examine(plugins: Plugins) -> Diagnosis:
 
 
 def _libraries() -> tuple[Finding, ...]:
-    """A finding for each requirement of simart-kit itself, then for those of its extras."""
-    base, extras = [], []
+    """A finding for each requirement of simart-kit itself, then for those of its extras.
+
+    A library of several extras is told once, with the extra that brings least besides.
+    """
+    base: list[Finding] = []
+    extras: dict[str, tuple[str, str]] = {}
     for line in requires("simart-kit") or ():
         requirement, _, marker = line.partition(";")
         found = re.match(r"\s*([\w.-]+)(?:\[.*\])?\s*(.*)", requirement)
@@ -79,11 +84,12 @@ def _libraries() -> tuple[Finding, ...]:
         if found is None or (extra and extra[1] in _NOT_TOLD):
             continue
         name, wanted = found[1].lower(), found[2].strip(" ()")
-        if extra:
-            extras.append(library(name, wanted=wanted, extra=extra[1], stages=()))
-        else:
+        if extra is None:
             base.append(library(name, wanted=wanted))
-    return (*base, *extras)
+        elif name not in extras or len(EXTRAS[extra[1]]) < len(EXTRAS[extras[name][0]]):
+            extras[name] = extra[1], wanted
+    rows = extras.items()
+    return (*base, *(library(name, wanted=w, extra=extra, stages=()) for name, (extra, w) in rows))
 
 
 def _plugin_findings(plugins: Plugins) -> tuple[PluginFindings, ...]:
@@ -146,9 +152,7 @@ def _recipe(
 
 def _needed(recipe: Recipe, plugins: Plugins, told: Iterable[PluginFindings]) -> list[Finding]:
     """What the plugins of a recipe's stages lack for these."""
-    uses = [("segmenter", recipe.segmenter), ("joint predictor", recipe.joints)]
-    uses += [("modifier", use) for use in recipe.modify] + [("exporter", use) for use in recipe.export]
-    used = [plugins.find(kind, use.use) for kind, use in uses]
+    used = [plugins.find(kind, use.use) for kind, use in recipe.uses()]
     return [
         finding
         for plugin in told

@@ -12,6 +12,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Literal
 
+from .extras import install_command
+
 State = Literal["ok", "missing", "broken"]
 # Distributions whose module has another name.
 _MODULES = {"pillow": "PIL", "usd-core": "pxr", "rerun-sdk": "rerun", "pycollada": "collada"}
@@ -55,7 +57,7 @@ def library(
         extra: of simart-kit that brings it, or "".
         stages: as in `Finding`.
     """
-    remedy = f"pip install 'simart-kit[{extra}]'" if extra else f"pip install '{distribution}{wanted}'"
+    remedy = install_command(extra) if extra else f"pip install '{distribution}{wanted}'"
     module = _MODULES.get(distribution, distribution.replace("-", "_"))
     try:
         found = version(distribution)
@@ -109,7 +111,7 @@ def hub_cache() -> Path:
 
 def _importable(module: str) -> bool:
     if module in sys.modules:
-        return True
+        return sys.modules[module] is not None  # None: its import is forbidden
     try:
         return find_spec(module) is not None
     except (ImportError, ValueError):

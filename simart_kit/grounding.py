@@ -18,7 +18,7 @@ from .mesh import Mesh, Note, UpAxis
 from .part_matching import match
 from .part_places import NamedPart, named_part
 from .plugins import Plugins, Registration
-from .recipe import build, load_recipe
+from .recipe import build, check_extras, load_recipe
 from .stages import Segmentation, Segmenter
 from .timeout import time_limit
 from .usage import ModelUsage
@@ -150,6 +150,7 @@ def ground(
     if not description.strip():
         raise BadInputError('the description is empty: say which part is meant, such as "the lid"')
     resolved = load_recipe(recipe, plugins, sets)
+    check_extras([("segmenter", resolved.segmenter)], plugins)
     loaded = read_source(path, plugins, up, unit)
     stage, registration = build(resolved.segmenter, Segmenter, plugins, resolved.seed)
     grounded = find_part(stage, registration, loaded.mesh, description, resolved.stage_timeout)

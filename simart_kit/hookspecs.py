@@ -36,10 +36,11 @@ class RegisterCommand(Protocol):
     """What `register_commands` is called with.
 
     Takes the command's name ("tokens", or "train vqvae" for one in a group), where its function is
-    ("package.module:function") and a line on what it does.
+    ("package.module:function"), a line on what it does, and an extra of simart-kit that it needs, such as
+    "torch": who lacks it is told so when the command is used.
     """
 
-    def __call__(self, name: str, target: str, help: str) -> None: ...
+    def __call__(self, name: str, target: str, help: str, extra: str = "") -> None: ...
 
 
 @hookspec

@@ -22,7 +22,7 @@ from .output import PROVENANCE, commit, forget_failure, hashes, keep_failure, le
 from .physics_overrides import overridden
 from .plugins import Plugins
 from .provenance import provenance, write_json
-from .recipe import Recipe, build, build_checks, load_recipe
+from .recipe import Recipe, build, build_checks, check_extras, load_recipe
 from .report import Report
 from .runner import Run, Runner
 from .spec.moving import with_joints
@@ -85,7 +85,7 @@ def convert(
         plugins: the default loads all installed ones.
 
     Raises:
-        BadInputError: the source or the spec cannot be used; nothing is written.
+        BadInputError: the source or the spec cannot be used, or a stage lacks an extra; nothing is written.
         RecipeError, PluginError: the recipe cannot be run; nothing is written.
         StageError: a stage failed; `out/failed` keeps its input and the recording, the rest is as it was.
     """
@@ -93,6 +93,7 @@ def convert(
     path = source_path(source)
     name = clean_name(name or path.stem, "asset")
     resolved = load_recipe(recipe, plugins, [*sets, *_scale_sets(height, scale)])
+    check_extras(resolved.uses(), plugins)
     wishes = None if spec is None else read_spec(spec)
     folder = Path(out) if out is not None else Path("out") / name
 

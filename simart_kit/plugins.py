@@ -246,8 +246,8 @@ class Plugins:
             registers["register_recipes"] = lambda name, path: pending.append(
                 Registration("recipe", name, Path(path), owner)
             )
-        registers["register_commands"] = lambda name, target, help: pending.append(
-            Registration("command", checked_name(name, str(owner)), PluginCommand(target, help), owner)
+        registers["register_commands"] = lambda name, target, help, extra="": pending.append(
+            Registration("command", checked_name(name, str(owner)), PluginCommand(target, help, extra), owner)
         )
         for hook, register in registers.items():
             implementation = self._implementation(plugin, hook)

@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from .errors import PluginError, RecipeError, UnknownPluginError
+from .extras import require_extra
 from .physics_overrides import PhysicsTable
 from .plugins import Plugins, Registration
 from .recipe_files import LISTS, Table, read_table
@@ -61,6 +62,12 @@ class Recipe(BaseModel):
         default_factory=dict, description="Thresholds of checks by name, or false to leave one out."
     )
 
+    def uses(self) -> tuple[tuple[str, Use], ...]:
+        """Kind and use of each of its stages, in their order; checks are not among them."""
+        singles = [(kind, getattr(self, key)) for key, kind in _SINGLES.items()]
+        lists = [(kind, use) for key, kind in LISTS.items() for use in getattr(self, key)]
+        return (*singles, *lists)
+
     def table(self) -> Table:
         """The recipe as plain values, a valid recipe itself."""
         return json.loads(self.model_dump_json(by_alias=True))  # type: ignore[no-any-return]
@@ -95,6 +102,22 @@ def parse_recipe(table: Mapping[str, Any], plugins: Plugins, where: str) -> Reci
         told = "; ".join([*mistakes, *failed])
         raise RecipeError(f"recipe '{where}' has {len(mistakes)} mistake(s): {told}")
     return _with_defaults(recipe, plugins)
+
+
+def check_extras(uses: Iterable[tuple[str, Use]], plugins: Plugins) -> None:
+    """Refuse stages that lack an extra of simart-kit, before any of them works.
+
+    Args:
+        uses: kind and use of each; see `Recipe.uses`.
+        plugins: where to find them.
+
+    Raises:
+        BadInputError: says which stage needs what.
+    """
+    for kind, use in uses:
+        options = read_options(plugins.find(kind, use.use).value, use.options)
+        for extra in options.needed_extras():
+            require_extra(extra, f"{kind} '{use.use}'")
 
 
 def build(use: Use, base: type[S], plugins: Plugins, seed: int) -> tuple[S, Registration]:

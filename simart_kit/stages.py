@@ -25,6 +25,13 @@ class Options(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
+    def needed_extras(self) -> tuple[str, ...]:
+        """Extras of simart-kit that a stage with these options needs, such as ("torch",).
+
+        A run of one who has them not is refused before anything is read.
+        """
+        return ()
+
 
 _AnyOptions = Options  # inside Stage, the name `Options` is the nested class
 

@@ -235,6 +235,16 @@ def test_the_document_holds_all_of_it(capfd):
     assert {"default", "geometric"} <= {row["subject"] for row in document["recipes"]}
 
 
+def test_a_library_of_several_extras_is_told_once_with_the_smaller_one(monkeypatch):
+    lines = [f"no-such-thing>=1; extra == '{extra}'" for extra in ("mllm", "torch", "test")]
+    monkeypatch.setattr(doctor, "requires", lambda name: lines)
+
+    (found,) = doctor.examine(sk.Plugins(installed=False)).libraries
+
+    assert (found.subject, found.state, found.stages) == ("no-such-thing", "missing", ())
+    assert found.remedy == "pip install 'simart-kit[torch]'"
+
+
 def test_a_driver_that_hangs_or_fails_is_told(monkeypatch, write):
     monkeypatch.setattr(machine.platform, "system", lambda: "Linux")
     tool = write("nvidia-smi", "#!/bin/sh\nexit 9\n")

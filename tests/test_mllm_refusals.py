@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 import torch
 from simart_kit_plugins.simart.default_model import load_model
-from simart_kit_plugins.simart.mllm import extra
 from simart_kit_plugins.simart.mllm.base import extend_base
 from simart_kit_plugins.simart.mllm.bundle import load_bundle, save_bundle
 from simart_kit_plugins.simart.vqnano.model import VqNano
 from simart_kit_plugins.simart.vqvae.checkpoint import save_checkpoint
 
 from simart_kit.errors import BadInputError
+from simart_kit.extras import EXTRAS
 
 from .mllm_folders import micro_codec, micro_model, plain_folder
 
@@ -199,7 +199,7 @@ def test_a_hub_id_offline_says_how_to_download_it(tmp_path: Path, monkeypatch: p
 
 
 def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(extra, "LIBRARIES", ("transformers", "no_such_library"))
+    monkeypatch.setitem(EXTRAS, "mllm", ("transformers", "no_such_library"))
     assert refusal("anything") == ("the language model needs no_such_library: pip install 'simart-kit[mllm]'")
 
 

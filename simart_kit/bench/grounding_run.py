@@ -20,7 +20,7 @@ from ..loading import Source, read_source
 from ..mesh import Mesh
 from ..part_matching import nearest_name
 from ..plugins import Plugins, Registration
-from ..recipe import Recipe, build
+from ..recipe import Recipe, build, check_extras
 from ..stages import Segmentation, Segmenter
 from .articulation import Articulation, Link
 from .cases import Truth
@@ -87,13 +87,14 @@ def grounding_scores(
         only: patterns of object names; none means all.
 
     Raises:
-        BadInputError: there is no object of such a name.
+        BadInputError: there is no object of such a name, or a segmenter lacks an extra.
     """
     patterns = tuple(only)
     truths = find_truths(data)
     names = [n for n in truths if not patterns or any(fnmatchcase(n, p) for p in patterns)]
     if not names:
         raise BadInputError(f"{data}: no object is named like {', '.join(patterns)}")
+    check_extras([("segmenter", r.segmenter) for r in (recipe, baseline)], plugins)
     stages = [build(r.segmenter, Segmenter, plugins, r.seed) for r in (recipe, baseline)]
     for name in names:
         reader, path = truths[name]

@@ -11,6 +11,7 @@ from typer.main import get_command, get_group
 
 from ..commands import GROUPS
 from ..errors import PluginError
+from ..extras import require_extra
 from .common import help_when_alone, stdout_kept
 
 if TYPE_CHECKING:
@@ -80,6 +81,7 @@ class PluginEntry(TyperCommand):
 
         Raises:
             AmbiguousPluginError: several plugins registered its name.
+            BadInputError: it needs an extra that is not there.
             PluginError: it cannot be imported, or is not annotated as typer needs it.
         """
         flags = parent.obj
@@ -88,7 +90,10 @@ class PluginEntry(TyperCommand):
         flags.verbose = "-v" in args or "--verbose" in args
         command = self._imported(registration)
         flags.verbose, flags.owner = False, registration.owner
-        return command.make_context(info_name, args, parent=parent, **extra)
+        context = command.make_context(info_name, args, parent=parent, **extra)
+        if registration.value.extra:
+            require_extra(registration.value.extra, f"command '{registration.name}'")
+        return context
 
     def _imported(self, registration: Registration) -> Any:
         single = typer.Typer(add_completion=False, rich_markup_mode=None)

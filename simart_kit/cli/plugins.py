@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -54,6 +55,7 @@ def show(
     Of a command, what it does; its options are in its own help.
     """
     from ..errors import UnknownPluginError
+    from ..extras import install_command
     from ..plugins import Plugins
 
     with stdout_kept(json):
@@ -70,7 +72,9 @@ def show(
     for registration in found:
         print(f"{registration.kind} {registration.name}, from {registration.owner}\n")
         if registration.kind == "command":
-            print(f"{registration.value.help}\n\n  simart-kit {name} --help")
+            needs = registration.value.extra
+            print(registration.value.help + (f" It needs `{install_command(needs)}`." if needs else ""))
+            print(f"\n  simart-kit {name} --help")
         else:
             _print_stage(registration)
 
@@ -114,7 +118,7 @@ def _row(registration: Registration) -> dict[str, str]:
 
 def _details(registration: Registration) -> dict[str, Any]:
     if registration.kind == "command":
-        return {"target": registration.value.target, "help": registration.value.help}
+        return asdict(registration.value)
     return {"options": _options(registration)}
 
 

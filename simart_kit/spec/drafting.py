@@ -16,7 +16,7 @@ from ..drawing.numbered import numbered_png
 from ..loading import Source, read_source, source_path
 from ..mesh import Mesh, UpAxis
 from ..plugins import Plugins, Registration
-from ..recipe import Recipe, build, load_recipe
+from ..recipe import Recipe, build, check_extras, load_recipe
 from ..stages import JointPredictor, Modifier, Segmentation, Segmenter
 from ..timeout import time_limit
 from .moving import axis_words, same_limits
@@ -76,6 +76,7 @@ def draft(
     plugins = plugins or Plugins()
     path = source_path(source)
     resolved = load_recipe(recipe, plugins, sets)
+    check_extras(resolved.uses(), plugins)
     loaded = read_source(path, plugins, up, unit)
     segmentation = _segmented(loaded, resolved, plugins)
     joints = _joints(loaded, segmentation, resolved, plugins)

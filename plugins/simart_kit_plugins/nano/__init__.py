@@ -25,7 +25,12 @@ def register_segmenters(register: Register) -> None:
 def register_commands(register: RegisterCommand) -> None:
     """Register `generate`, `train nano` and `bench oracle`."""
     register("generate", f"{_COMMANDS}.generate:generate", "Write made-up articulated objects.")
-    register("train nano", f"{_COMMANDS}.train_nano:train_nano", "Train the small model of parts and joints.")
+    register(
+        "train nano",
+        f"{_COMMANDS}.train_nano:train_nano",
+        "Train the small model of parts and joints.",
+        "torch",
+    )
     register("bench oracle", f"{_COMMANDS}.oracle:oracle", "Tell where nano loses parts and joints.")
 
 

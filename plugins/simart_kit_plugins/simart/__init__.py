@@ -10,7 +10,23 @@ if TYPE_CHECKING:
     from simart_kit.findings import Finding
     from simart_kit.hookspecs import Register, RegisterCommand
 
-_COMMANDS = "simart_kit_plugins.simart.commands"
+# Name, function, extra that it needs, and a line on what it does.
+_COMMANDS = (
+    ("tokens", "tokens:tokens", "torch", "Count the voxel tokens of a mesh and write them."),
+    ("train vqvae", "train_vqvae:train_vqvae", "torch", "Train a sparse 3D VQ-VAE."),
+    ("train mllm", "train_mllm:train_mllm", "mllm", "Fine-tune a Qwen3-VL on instruction data."),
+    ("dataset build", "dataset_build:dataset_build", "torch", "Make instruction data for the model."),
+    (
+        "model import-trellis",
+        "import_trellis:import_trellis",
+        "torch",
+        "Make a sparse 3D VQ-VAE of TRELLIS' weights.",
+    ),
+    ("model evaluate", "evaluate_model:evaluate_model", "torch", "Score a voxel model."),
+    ("model shrink", "shrink_model:shrink_model", "torch", "Write a model in half precision, for shipping."),
+    ("bench vqvae", "bench_vqvae:bench_vqvae", "torch", "Compare configurations of the sparse 3D VQ-VAE."),
+    ("bench mllm", "bench_mllm:bench_mllm", "mllm", "Compare forms of voxel sequences."),
+)
 
 
 @hookimpl
@@ -34,26 +50,5 @@ def diagnose() -> list[Finding]:
 @hookimpl
 def register_commands(register: RegisterCommand) -> None:
     """Register `tokens`, what trains and compares models, and what is done with them."""
-    register("tokens", f"{_COMMANDS}.tokens:tokens", "Count the voxel tokens of a mesh and write them.")
-    register("train vqvae", f"{_COMMANDS}.train_vqvae:train_vqvae", "Train a sparse 3D VQ-VAE.")
-    register("train mllm", f"{_COMMANDS}.train_mllm:train_mllm", "Fine-tune a Qwen3-VL on instruction data.")
-    register(
-        "dataset build", f"{_COMMANDS}.dataset_build:dataset_build", "Make instruction data for the model."
-    )
-    register(
-        "model import-trellis",
-        f"{_COMMANDS}.import_trellis:import_trellis",
-        "Make a sparse 3D VQ-VAE of TRELLIS' weights.",
-    )
-    register("model evaluate", f"{_COMMANDS}.evaluate_model:evaluate_model", "Score a voxel model.")
-    register(
-        "model shrink",
-        f"{_COMMANDS}.shrink_model:shrink_model",
-        "Write a model in half precision, for shipping.",
-    )
-    register(
-        "bench vqvae",
-        f"{_COMMANDS}.bench_vqvae:bench_vqvae",
-        "Compare configurations of the sparse 3D VQ-VAE.",
-    )
-    register("bench mllm", f"{_COMMANDS}.bench_mllm:bench_mllm", "Compare forms of voxel sequences.")
+    for name, function, extra, help in _COMMANDS:
+        register(name, f"{__name__}.commands.{function}", help, extra)

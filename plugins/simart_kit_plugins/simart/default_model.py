@@ -7,6 +7,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from simart_kit.errors import BadInputError
+from simart_kit.extras import require_extra
 from simart_kit.provenance import file_hash
 
 from .codec import TokenModel, token_grid
@@ -42,9 +43,10 @@ def load_model(folder: Path | None = None) -> LoadedModel:
     """Read a model, by default the shipped one, onto the CPU. Imports torch.
 
     Raises:
-        BadInputError: a file is missing or damaged, the weights are of another config, or the model has no
-            tokens that can be written (see `token_grid`).
+        BadInputError: there is no torch, a file is missing or damaged, the weights are of another config, or
+            the model has no tokens that can be written (see `token_grid`).
     """
+    require_extra("torch", "a voxel model")
     from .vqvae.checkpoint import load_checkpoint
 
     folder = default_model_folder() if folder is None else folder

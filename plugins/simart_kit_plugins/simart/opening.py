@@ -41,6 +41,10 @@ class ModelOptions(simart_kit.Options):
         default=300.0, gt=0, allow_inf_nan=False, description="Longest wait for a reply of the server [s]."
     )
 
+    def needed_extras(self) -> tuple[str, ...]:
+        """Of the model; with a server's, only the voxel model runs here."""
+        return ("torch",) if self.endpoint else ("mllm",)
+
     @field_validator("endpoint")
     @classmethod
     def _check_endpoint(cls, url: str) -> str:

@@ -38,6 +38,10 @@ class Tokens(Segmenter):
             default="", description="Folder of the model that wrote it; empty: the shipped one."
         )
 
+        def needed_extras(self) -> tuple[str, ...]:
+            """That of the voxel model."""
+            return ("torch",)
+
     options: Options
 
     def segment(self, mesh: Mesh) -> Segmentation:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from simart_kit.extras import require_extra
+
 from ..simart.mllm.weights import Choices
 from ..simart.prompt.pixels import Patches, PatchGrid, patches
 from .values import Completion, Correction, Question
@@ -50,10 +52,9 @@ class Local:
         Raises:
             BadInputError: the extra is not installed, the model cannot be had, or memory does not do.
         """
-        from ..simart.mllm.extra import require_extra
         from ..simart.mllm.memory import memory_told
 
-        require_extra("backend transformers")
+        require_extra("mllm", "backend transformers")
         plain = _loaded(self.model, self.choices)
         with memory_told("asking the model"):
             inputs = _inputs(plain, question, correction)

@@ -71,6 +71,10 @@ class VlmOptions(simart_kit.Options):
         default=False, description="For transformers: run a large model even on a CPU, which takes hours."
     )
 
+    def needed_extras(self) -> tuple[str, ...]:
+        """Those of a model on this machine, unless all its answers are kept ones."""
+        return ("mllm",) if self.backend == "transformers" and not self.replay else ()
+
     @model_validator(mode="before")
     @classmethod
     def _refuse_keys(cls, table: Any) -> Any:

@@ -55,10 +55,12 @@ def run(
     with stdout_kept(json):
         from ...bench.run import Plan
         from ...bench.worker import Conversions
-        from ...recipe import load_recipe
+        from ...recipe import check_extras, load_recipe
         from .perform import perform, tell
 
-        resolved = load_recipe(recipe, load_plugins(plugin), [*(sets or ()), 'export=[{use="mjcf"}]'])
+        plugins = load_plugins(plugin)
+        resolved = load_recipe(recipe, plugins, [*(sets or ()), 'export=[{use="mjcf"}]'])
+        check_extras(resolved.uses(), plugins)
         files = tuple(file.resolve() for file in plugin or ())
         plan = Plan(
             data=data,

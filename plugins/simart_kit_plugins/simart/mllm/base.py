@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from simart_kit.errors import BadInputError
+from simart_kit.extras import require_extra
 
 from ..default_model import LoadedModel
 from .building import simart_model
-from .extra import require_extra
 from .hub import located
 from .settings import SETTINGS_FILE
 from .simart_model import SimartModel
@@ -28,7 +28,7 @@ def extend_base(base: str, codec: LoadedModel, seed: int = 0, choices: Choices =
         BadInputError: the extra is not installed; files are missing, damaged or of another architecture; the
             base is a SIMART model already; or device or memory do not do.
     """
-    require_extra()
+    require_extra("mllm", "the language model")
     if (located(base, weights=False) / SETTINGS_FILE).is_file():
         raise BadInputError(f"{base} is a SIMART model already: load it, do not extend it")
     plain = load_plain(base, choices, voxel_tokens=1 + codec.grid.cells + codec.grid.codebook)

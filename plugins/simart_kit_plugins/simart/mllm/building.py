@@ -6,9 +6,11 @@ import copy
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from simart_kit.extras import require_extra
+
 from ..default_model import LoadedModel
 from .embeddings import start_embeddings
-from .extra import quiet, require_extra
+from .extra import quiet
 from .settings import settings_of
 from .simart_model import SimartModel
 from .sizes import MllmSize
@@ -35,7 +37,7 @@ def build(size: MllmSize, codec: LoadedModel, seed: int = 0, texts: Iterable[str
     Raises:
         BadInputError: the extra is not installed, or the base cannot be had.
     """
-    require_extra()
+    require_extra("mllm", "the language model")
     if size.base:
         from .base import extend_base
 

@@ -6,10 +6,11 @@ from functools import lru_cache
 from pathlib import Path
 
 from simart_kit.errors import BadInputError
+from simart_kit.extras import require_extra
 from simart_kit.provenance import file_hash
 
 from ..default_model import LoadedModel, load_model
-from .extra import quiet, require_extra
+from .extra import quiet
 from .hub import located
 from .memory import memory_told
 from .saving import ADAPTER_CONFIG, CODEC_FOLDER, TOKENIZER_FILE, SaveDtype, save_bundle
@@ -43,7 +44,7 @@ def load_bundle(
         BadInputError: the extra is not installed; there is no such model, or it is no SIMART model; files are
             missing, damaged or not of one model; or device or memory do not do, with numbers.
     """
-    require_extra()
+    require_extra("mllm", "the language model")
     settings_file = Path(name).expanduser() / SETTINGS_FILE
     # A model that was written anew is read anew; the hub is not asked twice.
     written = settings_file.stat().st_mtime_ns if settings_file.is_file() else 0

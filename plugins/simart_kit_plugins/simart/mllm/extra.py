@@ -1,23 +1,10 @@
-"""The libraries of the extra `mllm`: whether they are there, and how they are kept quiet."""
+"""quiet(): the libraries of the extra `mllm` keep their warnings and progress bars to themselves."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib.util import find_spec
-
-from simart_kit.errors import BadInputError
-
-EXTRA = "simart-kit[mllm]"
-LIBRARIES = ("transformers", "tokenizers", "accelerate", "peft")
-
-
-def require_extra(what: str = "the language model") -> None:
-    """Raise BadInputError that says what to install, where a library of the extra is missing."""
-    missing = [name for name in LIBRARIES if find_spec(name) is None]
-    if missing:
-        raise BadInputError(f"{what} needs {' and '.join(missing)}: pip install '{EXTRA}'")
 
 
 @contextmanager

@@ -7,10 +7,10 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from simart_kit.errors import BadInputError
+from simart_kit.extras import require_extra
 
 from ..tokens import TokenGrid
 from ..vocabulary import Vocabulary
-from .extra import require_extra
 
 if TYPE_CHECKING:
     from transformers import PreTrainedTokenizerFast
@@ -87,7 +87,7 @@ def small_tokenizer(texts: Iterable[str], size: int = 2048) -> PreTrainedTokeniz
     Raises:
         BadInputError: the size is too small, or the extra is not installed.
     """
-    require_extra("a tokenizer")
+    require_extra("mllm", "a tokenizer")
     least = 256 + len(SPECIAL)
     if size < least:
         raise BadInputError(f"a tokenizer of {size} tokens: the bytes and special tokens need {least}")
