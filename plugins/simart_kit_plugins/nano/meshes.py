@@ -75,10 +75,9 @@ def _of_skin(
     face_piece = nearest_superface(middles, faces.points, faces.normals, faces.colors)
     thin = np.sort(generator.permutation(len(patch))[: len(patch) // 3])
     thin = np.union1d(thin, np.unique(patch, return_index=True)[1])
+    area = cloud.area[thin] / cloud.area[thin].sum()
     count = int(patch.max()) + 1
-    kept = Cloud(
-        cloud.points[thin], cloud.normals[thin], cloud.colors[thin], patch[thin], cloud.area[thin], count
-    )
+    kept = Cloud(cloud.points[thin], cloud.normals[thin], cloud.colors[thin], patch[thin], area, count)
     return kept, face_piece, middles
 
 
