@@ -21,6 +21,9 @@ Seed = Annotated[int, typer.Option(min=0, metavar="N", help="Decides all that is
 Open = Annotated[
     float, typer.Option("--open", min=0, max=1, metavar="X", help="Share of the joints that stand open.")
 ]
+Skins = Annotated[
+    bool, typer.Option("--skins", help="Write a closed skin of each, too: fused.glb and fused.npz.")
+]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but the result.")]
 _EVERY = 50
 
@@ -31,6 +34,7 @@ def generate(
     count: Count = 1,
     seed: Seed = 0,
     open_share: Open = 1 / 3,
+    skins: Skins = False,
     json: Json = False,
     verbose: Verbose = False,
     quiet: Quiet = False,
@@ -47,7 +51,7 @@ def generate(
             if not quiet and done % _EVERY == 0:
                 print(f"objects made: {done} of {of}", file=sys.stderr, flush=True)
 
-        folders = write_objects(_chosen(what), count, seed, out, open_share, progress)
+        folders = write_objects(_chosen(what), count, seed, out, open_share, progress, skins)
     if json:
         print_json({"ok": True, "objects": [str(folder) for folder in folders]})
         return

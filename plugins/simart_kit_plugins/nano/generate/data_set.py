@@ -6,6 +6,8 @@ import zlib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+import numpy as np
+
 from simart_kit.errors import BadInputError, OutputError
 from simart_kit.output import staging
 
@@ -13,11 +15,12 @@ from ...shapes.dice import Dice
 from .category import Category
 from .objects import GeneratedObject
 from .posing import ajar
+from .skins import skin_of, write_skin
 from .writing import write_object
 
 # Told after each object: done, and of how many.
 Progress = Callable[[int, int], None]
-_MAKE, _POSE, _PAINT = range(3)
+_MAKE, _POSE, _PAINT, _COVER = range(4)
 
 
 def generated(category: Category, seed: int, number: int, open_share: float = 1 / 3) -> GeneratedObject:
@@ -40,10 +43,12 @@ def write_objects(
     out: Path,
     open_share: float = 1 / 3,
     progress: Progress | None = None,
+    skins: bool = False,
 ) -> tuple[Path, ...]:
     """Write `count` objects of each category as SIMART-Bench folders out/CATEGORY_0000 and so on.
 
-    All are written aside first, so that a run that stops leaves nothing behind.
+    All are written aside first, so that a run that stops leaves nothing behind. With `skins`, each also gets
+    a closed skin, as the variant `fused`.
 
     Returns:
         The folders.
@@ -61,7 +66,10 @@ def write_objects(
         try:
             for done, ((category, number), name) in enumerate(zip(jobs, names, strict=True), start=1):
                 made = generated(category, seed, number, open_share)
-                write_object(made, name, draft / name, _dice(category, seed, number, _PAINT))
+                mesh = write_object(made, name, draft / name, _dice(category, seed, number, _PAINT))
+                if skins:
+                    generator = np.random.default_rng(_entropy(category, seed, number, _COVER))
+                    write_skin(skin_of(mesh, generator), draft / name)
                 if progress is not None:
                     progress(done, len(jobs))
             for name in names:
@@ -72,5 +80,9 @@ def write_objects(
 
 
 def _dice(category: Category, seed: int, number: int, use: int) -> Dice:
-    """Dice for one use; a name's checksum keeps categories apart when others are added."""
-    return Dice((seed, zlib.crc32(category.name.encode()), number, use))
+    return Dice(_entropy(category, seed, number, use))
+
+
+def _entropy(category: Category, seed: int, number: int, use: int) -> tuple[int, ...]:
+    """What decides chance for one use; a name's checksum keeps categories apart when others are added."""
+    return seed, zlib.crc32(category.name.encode()), number, use

@@ -69,7 +69,7 @@ def mesh_of(made: GeneratedObject, dice: Dice) -> GeneratedMesh:
     )
 
 
-def write_object(made: GeneratedObject, name: str, folder: Path, dice: Dice) -> None:
+def write_object(made: GeneratedObject, name: str, folder: Path, dice: Dice) -> GeneratedMesh:
     """Write input.glb, gt.npz and gt.json into a folder, which is made.
 
     Args:
@@ -77,6 +77,9 @@ def write_object(made: GeneratedObject, name: str, folder: Path, dice: Dice) -> 
         name: of the object.
         folder: to write.
         dice: of the texture.
+
+    Returns:
+        The mesh that was written.
     """
     mesh = mesh_of(made, dice)
     folder.mkdir(parents=True)
@@ -84,6 +87,7 @@ def write_object(made: GeneratedObject, name: str, folder: Path, dice: Dice) -> 
     np.savez_compressed(folder / "gt.npz", allow_pickle=False, face_part=mesh.face_part)
     text = json.dumps(_table(made, name), indent=1, allow_nan=False)
     (folder / "gt.json").write_text(text + "\n", encoding="utf-8")
+    return mesh
 
 
 def _glb(mesh: GeneratedMesh, name: str) -> bytes:
