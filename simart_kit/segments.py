@@ -1,4 +1,4 @@
-"""Mesh -> segments: connected components, and crease-bounded patches where everything is fused."""
+"""Mesh -> segments: connected components, and patches between creases or grooves where all is fused."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray, frozen_ints
 from .mesh import Mesh
+from .skins.relief import is_fine, relief_pieces
 from .topology import connected, first_alike, half_edges, shared_by_two, touching, weld
 from .triangles import cosines
 
@@ -28,7 +29,7 @@ class Segments:
         count: number of segments.
         duplicates: faces that repeat an earlier one; they share its segment.
         degenerates: faces without area; they join nothing, and share the largest segment that they touch.
-        patches: whether a fused component was cut at its creases.
+        patches: whether a fused component was cut at its creases, a fine one by `relief_pieces`.
     """
 
     face_segment: IntArray
@@ -54,7 +55,7 @@ def find_segments(
 
     Args:
         mesh: faces keep their order; nothing is removed from it.
-        crease: dihedral angle that bounds the patches of a fused component [rad].
+        crease: dihedral angle that bounds the patches of a coarse fused component [rad].
         node_hint: never join faces of different scene-graph nodes.
         vertex: (V,) welded id of every vertex, as `weld` gives it with `WELD_TOLERANCE`, where known.
     """
@@ -104,7 +105,11 @@ def _pieces(mesh: Mesh, corners: IntArray, kept: IntArray, crease: float) -> tup
     if spanning is None or _share(mesh, found, kept, spanning) < _FUSED_AREA:
         return found, False
     inside = found == spanning
-    found[inside] = found.max() + 1 + joints.among(inside).patches(crease, smooth)[inside]
+    if is_fine(mesh, kept[inside]):
+        pieces = relief_pieces(mesh, corners[inside], kept[inside])
+    else:
+        pieces = joints.among(inside).patches(crease, smooth)[inside]
+    found[inside] = found.max() + 1 + pieces
     return found, True
 
 

@@ -14,6 +14,8 @@ from .scene import FACINGS, Scene
 ENCLOSED = 0.85  # share of rays behind a panel that must meet something for a cavity
 SHALLOWEST = 0.05  # a cavity is at least this deep
 FLAT = 0.4  # share of a panel's surface that faces out or back
+FRAMED = 0.75  # share of its sides with something close beside, of what stands in a frame
+WHOLE = 0.9  # share of its side from which on a front is that side
 LEAST_SHARE = 0.06  # of its side that a front without a handle takes
 _DOUBTFUL = 0.3  # how sure a front is that takes its whole side, and for which nothing else speaks
 
@@ -38,14 +40,15 @@ class Mover:
 def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     """Doors, drawers and lids. A front with a handle counts on any side; one without, on the main side only.
 
-    On a fused skin every patch closes the cavity within, so there only framed fronts with handles count.
+    On a fused skin every patch closes the cavity within, so there only those with handles count, and what
+    takes a whole side is the body's.
     """
     fronts = {facing: find_fronts(scene, contacts, facing) for facing in FACINGS}
     main = _main_side(fronts)
     chosen: list[tuple[float, Front]] = []
     for facing, found in fronts.items():
         for front in found:
-            score = _fused_score(front) if fused else _score(front, facing == main)
+            score = _score(front, facing == main, fused)
             if score > 0:
                 chosen.append((score, front))
     return _apart(chosen, set())
@@ -82,11 +85,13 @@ def _main_side(fronts: dict[str, list[Front]]) -> str:
     return max(fronts, key=weight)
 
 
-def _score(front: Front, main: bool) -> float:
+def _score(front: Front, main: bool, fused: bool) -> float:
     """0 for a front that stays, else how sure it moves."""
+    if fused and front.framed < FRAMED and front.share > WHOLE:
+        return 0.0
     if _opens_by_handle(front):
         return 0.9 if main else 0.6
-    return 0.6 if main and _opens_by_place(front) else 0.0
+    return 0.6 if main and not fused and _opens_by_place(front) else 0.0
 
 
 def _opens_by_handle(front: Front) -> bool:
@@ -97,7 +102,7 @@ def _opens_by_handle(front: Front) -> bool:
         return _is_panel(front) and _closes_cavity(front)
     if front.boxed:
         return front.walled >= 0.5 or front.hollow or bool(front.behind)
-    return _is_panel(front) and (front.backed >= ENCLOSED or front.framed >= 0.75)
+    return _is_panel(front) and (front.backed >= ENCLOSED or front.framed >= FRAMED)
 
 
 def _opens_by_place(front: Front) -> bool:
@@ -111,10 +116,6 @@ def _opens_by_place(front: Front) -> bool:
 
 def _is_panel(front: Front) -> bool:
     return front.flat >= FLAT and front.box.size[2] < 0.5 * front.box.size[:2].min()
-
-
-def _fused_score(front: Front) -> float:
-    return 0.4 if front.handles and front.framed >= 0.75 and front.backed >= ENCLOSED else 0.0
 
 
 def _closes_cavity(front: Front) -> bool:
@@ -143,6 +144,6 @@ def _evidence(front: Front) -> tuple[str, ...]:
         told.append(f"closes a cavity {front.depth:.2f} diagonals deep")
     if front.boxed:
         told.append("a box hangs behind it")
-    if front.framed >= 0.75:
+    if front.framed >= FRAMED:
         told.append("stands in a frame")
     return tuple(told)

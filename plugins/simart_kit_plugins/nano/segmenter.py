@@ -86,7 +86,7 @@ class Nano(Segmenter):
         if still >= _STILL:
             found = _static(mesh, seen, material)
         else:
-            found = (_of_skin if seen.skin else self._of_pieces)(mesh, said, seen, material, spec)
+            found = (self._of_skin if seen.skin else self._of_pieces)(mesh, said, seen, material, spec)
         assert found.face_segment is not None
         shown = evidence(found.mesh_of(mesh), found.face_segment, said, seen)
         return replace(found, notes=_notes(said, seen, still, len(found.parts) - 1), evidence=shown)
@@ -116,6 +116,23 @@ class Nano(Segmenter):
         found = found if spec is None else rejoined(mesh, found, kept, seen, spec)
         return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
 
+    def _of_skin(
+        self,
+        mesh: Mesh,
+        said: Prediction,
+        seen: MeshCloud,
+        material: Callable[[str], str],
+        spec: Spec | None,
+    ) -> Segmentation:
+        """What geometry finds on a skin; where that is nothing, or more is stated, the network's parts."""
+        from .proposals import of_geometry, segmentation_of, with_body
+
+        proposals = of_geometry(mesh, self.seed) if self.options.pool and spec is None else []
+        if not proposals:
+            return _of_patches(mesh, said, seen, material, spec)
+        found = segmentation_of(with_body(mesh, proposals), len(mesh.faces), material)
+        return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
+
 
 def _static(mesh: Mesh, seen: MeshCloud, material: Callable[[str], str]) -> Segmentation:
     from .proposals import segmentation_of
@@ -124,10 +141,10 @@ def _static(mesh: Mesh, seen: MeshCloud, material: Callable[[str], str]) -> Segm
     return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
 
 
-def _of_skin(
+def _of_patches(
     mesh: Mesh, said: Prediction, seen: MeshCloud, material: Callable[[str], str], spec: Spec | None
 ) -> Segmentation:
-    """Parts of a skin, their ends where creases, colours and short ways suggest; large faces may be cut."""
+    """What the network finds on a skin; creases, colours and short ways end parts, large faces are cut."""
     from .boundaries.cutting import cut
     from .boundaries.patch_parts import patch_parts, patch_size
     from .honouring import chosen_said, rejoined

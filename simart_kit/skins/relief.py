@@ -1,0 +1,104 @@
+"""A skin cut in grooves, at seams of colour and at sharp edges: where the solids met that it was made of.
+
+Where two solids are fused, their surfaces meet in a hollow edge. The skins of generative models are finely
+meshed and rough: the angle between two faces tells little there, how a vertex lies to the mean of its
+surroundings does.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import BoolArray, FloatArray, IntArray
+from ..mesh import Mesh
+from ..normals import with_normals
+from ..srgb import linear_to_srgb
+from ..topology import without_gaps
+from .frames import with_frames_shared_out
+from .graph import SkinGraph, skin_graph, unit
+
+# Radius of the surroundings, as a share of the longest side, and the most steps that they are wide.
+_RADIUS, _STEPS = 0.022, 40
+# How far, in radii, the mean of the surroundings lies above a vertex in a groove, and below one at an edge.
+_GROOVE, _EDGE = 0.03, 0.05
+# Least difference of neighbouring vertices at a seam, of 0..1; a piece that seams bound is no smaller than
+# this share of the surface, for stains are none.
+_SEAM, _LEAST_COLORED = 0.12, 0.006
+_LEAST = 0.0006  # share of the surface that a piece has at least
+_BIG = 0.1  # share from which on a piece is cut at its sharp edges too
+_NARROW = 0.013  # width, in longest sides, below which a piece is but the wall of a step
+
+
+def is_fine(mesh: Mesh, kept: IntArray) -> bool:
+    """Whether triangles that are small against the surroundings make up most of some faces' surface."""
+    areas = np.sort(mesh.face_areas[kept])
+    middle = areas[np.searchsorted(np.cumsum(areas), areas.sum() / 2)]
+    side = np.sqrt(middle * 4 / np.sqrt(3))
+    return bool(side < _RADIUS * np.ptp(mesh.bounds, axis=0).max())
+
+
+def relief_pieces(mesh: Mesh, corners: IntArray, kept: IntArray) -> IntArray:
+    """(K,) labels 0.. of the `kept` faces of a skin.
+
+    Args:
+        mesh: of the faces.
+        corners: (K, 3) what they meet at.
+        kept: (K,) ids of the faces.
+    """
+    used, faces = without_gaps(corners)
+    places = np.zeros((len(used), 3))
+    places[faces] = mesh.triangles[kept]
+    graph = skin_graph(places, faces, mesh.face_normals[kept], mesh.face_areas[kept])
+    facing = unit(graph.means(graph.normals, 2))
+    height = _height(graph, facing)
+    barrier = (height > _GROOVE) | _seams(graph, _colors(mesh, faces, kept, len(used), graph.spacing))
+    piece = graph.pieces(barrier)
+    area = np.bincount(piece, graph.areas * ~barrier)
+    barrier |= (area > _BIG * graph.areas.sum())[piece] & (height < -_EDGE)
+    piece = graph.filled(graph.pieces(barrier), barrier, _LEAST)
+    piece = graph.filled(piece, _narrow(graph, piece)[piece], _LEAST)
+    return _of_faces(with_frames_shared_out(graph, piece, facing), faces)
+
+
+def _height(graph: SkinGraph, facing: FloatArray) -> FloatArray:
+    """(V,) how far the surroundings' mean lies above each vertex along (V, 3) `facing`, in their radii."""
+    steps = int(np.clip(round((_RADIUS * graph.size / graph.spacing) ** 2 / 2), 2, _STEPS))
+    above = np.einsum("vi,vi->v", graph.means(graph.places, steps) - graph.places, facing)
+    return graph.means(above / (graph.spacing * np.sqrt(steps)), 1)
+
+
+def _narrow(graph: SkinGraph, label: IntArray) -> BoolArray:
+    """(P,) which pieces are narrow strips between others."""
+    # About two edges of a mesh of triangles cross each of its spacings.
+    border = graph.borders(label).sum(axis=1) * graph.spacing / 2
+    return np.asarray(np.bincount(label, graph.areas) < _NARROW * graph.size * border)
+
+
+def _seams(graph: SkinGraph, colors: FloatArray) -> BoolArray:
+    """(V,) whether a vertex lies where two regions of other colours meet."""
+    a, b = graph.edges.T
+    seam = np.zeros(len(colors), dtype=np.bool_)
+    seam[graph.edges[np.abs(colors[a] - colors[b]).max(axis=1) > _SEAM]] = True
+    region = graph.filled(graph.pieces(seam), seam, _LEAST_COLORED)
+    found = np.zeros(len(colors), dtype=np.bool_)
+    found[graph.edges[region[a] != region[b]]] = True
+    return found
+
+
+def _colors(mesh: Mesh, faces: IntArray, kept: IntArray, count: int, width: float) -> FloatArray:
+    """(V, 3) sRGB 0..1 of the vertices, as a face of each shows it; textures are averaged over `width`."""
+    from ..drawing.appearance import Appearance
+
+    at = np.zeros(count, dtype=np.int64)
+    at[faces.ravel()] = np.arange(faces.size)
+    face, side = np.divmod(at, 3)
+    looks = Appearance(mesh if mesh.normals is not None else with_normals(mesh))
+    weights = np.eye(3, dtype=np.float32)[side]
+    linear = looks.colors(kept[face], weights, np.full(count, width, dtype=np.float32))[:, :3]
+    return linear_to_srgb(linear.astype(np.float64))
+
+
+def _of_faces(label: IntArray, faces: IntArray) -> IntArray:
+    """(F,) the label that most of each face's (F, 3) vertices have."""
+    a, b, c = label[faces].T
+    return np.asarray(np.where(b == c, b, a))

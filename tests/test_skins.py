@@ -1,0 +1,141 @@
+"""Closed skins: cut where the solids met that they were made of."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from simart_kit_plugins.geometric.segmenter import Geometric
+from simart_kit_plugins.shapes.surface_nets import surface_nets
+
+from simart_kit.arrays import BoolArray, FloatArray
+from simart_kit.loading import read_source
+from simart_kit.mesh import Mesh
+from simart_kit.plugins import Plugins
+from simart_kit.segments import Segments, find_segments
+
+from .real_objects import DATA, needs_data
+
+Box = tuple[tuple[int, int, int], tuple[int, int, int]]
+
+
+def skin(solid: Sequence[Box], hollow: Sequence[Box] = ()) -> Mesh:
+    """The closed skin of boxes, and of boxes taken out of them, in cells of a hundredth of a metre."""
+    grid = np.ones((112, 112, 112))
+    for boxes, value in ((solid, -1.0), (hollow, 1.0)):
+        for low, high in boxes:
+            grid[tuple(slice(a + 5, b + 5) for a, b in zip(low, high, strict=True))] = value
+    vertices, faces = surface_nets(grid)
+    return Mesh(vertices / 100, faces)
+
+
+def at(mesh: Mesh, segments: Segments, place: FloatArray | tuple[float, ...]) -> int:
+    """The segment of the face nearest to a place, in cells as `skin` takes them."""
+    middles = mesh.triangles.mean(axis=1) * 100 - 5 + 0.5
+    return int(segments.face_segment[np.linalg.norm(middles - np.asarray(place), axis=1).argmin()])
+
+
+SLAB: list[Box] = [((0, 10, 0), (60, 60, 100)), ((0, 4, 20), (60, 10, 80))]
+FRAME: list[Box] = [((0, 0, 0), (60, 60, 100))]
+PANELS: list[Box] = [((8, 0, 8), (52, 1, 46)), ((8, 0, 54), (52, 1, 92))]
+
+
+class TestGrooves:
+    def test_a_slab_before_a_block_is_a_piece(self) -> None:
+        mesh = skin(SLAB)
+        segments = find_segments(mesh)
+        assert segments.patches
+        above, slab, below = (at(mesh, segments, (30, y, z)) for y, z in ((10, 92), (4, 50), (10, 8)))
+        assert len({above, slab, below}) == 3
+        area = mesh.face_areas[segments.face_segment == slab].sum()
+        assert area == pytest.approx(0.60 * 0.60, rel=0.25)  # its front, and some of its narrow sides
+
+    def test_roughness_makes_no_pieces(self) -> None:
+        mesh = skin(SLAB)
+        rng = np.random.default_rng(0)
+        rough = Mesh(mesh.vertices + rng.normal(0, 0.001, mesh.vertices.shape), mesh.faces)
+        smooth, found = find_segments(mesh), find_segments(rough)
+        assert found.count == smooth.count
+        assert (found.face_segment == smooth.face_segment).mean() > 0.9
+
+    def test_pieces_do_not_depend_on_pose_and_size(self) -> None:
+        mesh = skin(SLAB)
+        turn = Rotation.from_euler("zyx", (20, 10, 50), degrees=True).as_matrix()
+        turned = Mesh(40 * mesh.vertices @ turn.T, mesh.faces)
+        one, other = find_segments(mesh).face_segment, find_segments(turned).face_segment
+        # The radius goes by the longest side of the box around it, which turning changes.
+        pairs = np.bincount(one * (int(other.max()) + 1) + other)
+        assert np.sort(pairs)[-(int(one.max()) + 1) :].sum() > 0.95 * len(one)
+
+    def test_every_face_has_a_segment_largest_first(self) -> None:
+        mesh = skin(SLAB)
+        segments = find_segments(mesh)
+        areas = np.bincount(segments.face_segment, mesh.face_areas)
+        assert len(areas) == segments.count
+        assert (np.diff(areas) <= 0).all()
+
+
+class TestSeams:
+    def colored(self, where: FloatArray) -> Mesh:
+        mesh = skin(FRAME)
+        colors = np.full((len(mesh.vertices), 4), 255, dtype=np.uint8)
+        colors[where_in(mesh, where), :3] = (90, 60, 40)
+        return Mesh(mesh.vertices, mesh.faces, colors=colors)
+
+    def test_a_region_of_another_colour_is_a_piece(self) -> None:
+        mesh = self.colored(np.array([[10, -1, 20], [50, 1, 60]]))
+        segments = find_segments(mesh)
+        assert at(mesh, segments, (30, 0, 40)) != at(mesh, segments, (30, 0, 90))
+
+    def test_a_stain_is_none(self) -> None:
+        mesh = self.colored(np.array([[30, -1, 40], [33, 1, 43]]))
+        segments = find_segments(mesh)
+        assert at(mesh, segments, (31, 0, 41)) == at(mesh, segments, (30, 0, 90))
+
+
+def where_in(mesh: Mesh, box: FloatArray) -> BoolArray:
+    """(V,) whether vertices lie in a box of cells."""
+    cells = mesh.vertices * 100 - 5 + 0.5
+    return np.asarray(((cells >= box[0]) & (cells <= box[1])).all(axis=1))
+
+
+class TestFrames:
+    def test_a_frame_is_shared_out_among_the_panels_set_in_it(self) -> None:
+        mesh = skin(FRAME, PANELS)
+        segments = find_segments(mesh)
+        low, high = at(mesh, segments, (4, 0, 27)), at(mesh, segments, (4, 0, 73))
+        assert low != high
+        front = np.isin(segments.face_segment, (low, high)) & (mesh.face_normals[:, 1] < -0.9)
+        height = mesh.triangles[front].mean(axis=1)[:, 2] * 100 - 5
+        assert height[segments.face_segment[front] == low].max() == pytest.approx(50, abs=2)
+        assert height[segments.face_segment[front] == high].min() == pytest.approx(50, abs=2)
+
+    def test_slabs_that_stand_out_leave_their_frame_whole(self) -> None:
+        slabs: list[Box] = [((8, -3, 8), (52, 0, 46)), ((8, -3, 54), (52, 0, 92))]
+        mesh = skin([((0, 0, 0), (60, 60, 100)), *slabs])
+        segments = find_segments(mesh)
+        assert at(mesh, segments, (4, 0, 27)) == at(mesh, segments, (4, 0, 73))
+
+
+def test_a_coarse_skin_is_cut_at_its_creases() -> None:
+    corners = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
+    quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    faces = [face for a, b, c, d in quads for face in ((a, b, c), (a, c, d))]
+    assert find_segments(Mesh(corners, np.array(faces))).count == 6
+
+
+@needs_data
+def test_both_doors_of_a_real_skin_are_found() -> None:
+    folder = DATA / "bigym_wall_cabinet"
+    mesh = read_source(folder / "fused.glb", Plugins()).mesh
+    found = Geometric().segment(mesh)
+    truth = np.load(folder / "fused.npz")["face_part"]
+    assert [guess.label for guess in found.parts] == ["body", "door", "door"]
+    for door in (1, 2):
+        own = found.face_part == door
+        owner = np.bincount(truth[own], mesh.face_areas[own]).argmax()
+        shared = mesh.face_areas[own & (truth == owner)].sum() / mesh.face_areas[own | (truth == owner)].sum()
+        assert owner > 0
+        assert shared > 0.8
