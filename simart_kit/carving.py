@@ -20,24 +20,32 @@ _MOSTLY = 0.95  # share of what cuts all around leave with which a single cut wi
 _EXACT = 0.999  # share of its box that a piece fills which is one
 _SLIVER = 0.01  # share of the shape below which a piece is dropped
 _MORE = 48  # shapes that a part may have more for this
+_SHORTER = 0.05  # of the object's diagonal that a part's box may lose on a side
 
 
 def carved_apart(asset: Asset) -> Asset:
     """The asset without overlaps at rest: of two parts the one gives way that loses the smaller share.
 
-    It is cut along the planes of the other's shapes; one that would get very many of them stays as it is.
+    It is cut along the planes of the other's shapes; one that would get very many of them stays as it is, and
+    none gives way that would lose much of its extent by it, as one with a pivot within another's blade.
 
     Args:
         asset: with collision shapes.
     """
     shapes = {part.name: list(part.collision) for part in asset.parts}
     most = {name: len(row) + _MORE for name, row in shapes.items()}
+    ends = {name: _ends(row) for name, row in shapes.items() if row}
     for overlap in overlaps(asset):
         pairs = (overlap.one, overlap.other), (overlap.other, overlap.one)
         made = {giver: _without(shapes[giver], shapes[taker], most[giver]) for giver, taker in pairs}
-        kept = {name: _volume(row) / max(_volume(shapes[name]), 1e-12) for name, row in made.items()}
-        giver = max(made, key=lambda name: kept[name])
-        shapes[giver] = made[giver] or shapes[giver]
+        kept = {
+            name: _volume(row) / max(_volume(shapes[name]), 1e-12)
+            for name, row in made.items()
+            if row and np.abs(_ends(row) - ends[name]).max() <= _SHORTER * asset.mesh.diagonal
+        }
+        if kept:
+            giver = max(kept, key=lambda name: kept[name])
+            shapes[giver] = made[giver]
     return replaced(asset, {name: tuple(row) for name, row in shapes.items()})
 
 
@@ -84,20 +92,31 @@ def _around(shape: ConvexMesh, normals: FloatArray, ends: FloatArray) -> list[Co
     return pieces
 
 
+def _ends(shapes: Sequence[ConvexMesh]) -> FloatArray:
+    """(2, 3) lowest and highest corner of the box around shapes [m]."""
+    points = np.concatenate([shape.vertices for shape in shapes])
+    return np.array([points.min(axis=0), points.max(axis=0)])
+
+
 def _volume(shapes: Sequence[ConvexMesh]) -> float:
     return sum(map(volume, shapes))
 
 
 def _without(shapes: Sequence[ConvexMesh], taker: Sequence[ConvexMesh], most: int) -> list[ConvexMesh]:
     """The shapes with another part's cut out; where they are already many, they stay."""
-    made = list(shapes)
-    for other in taker:
-        row = list[ConvexMesh]()
-        for shape in made:
-            deep = -gap(Convex(shape), Convex(other))[0] > TOLERANCE
-            row += carved(shape, other) if deep and len(made) < most else [shape]
+    made = [Convex(shape) for shape in shapes]
+    for other in map(Convex, taker):
+        row = list[Convex]()
+        for one in made:
+            cut = len(made) < most and _overlap(one, other)
+            row += map(Convex, carved(one.shape, other.shape)) if cut else [one]
         made = row
-    return made
+    return [one.shape for one in made]
+
+
+def _overlap(one: Convex, other: Convex) -> bool:
+    beside = one.bounds[0] >= other.bounds[1], other.bounds[0] >= one.bounds[1]
+    return not np.any(beside) and -gap(one, other)[0] > TOLERANCE
 
 
 def _planes(shape: ConvexMesh) -> tuple[FloatArray, FloatArray]:

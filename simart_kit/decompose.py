@@ -19,6 +19,7 @@ from .grouping import grouped
 from .hulls import convex_hull, hull_of
 from .mending import mended
 from .shells import find_shells
+from .straightening import straightened
 from .triangles import unit_normals
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 _LEAST = 0.003  # of the hull of all, times how loose hulls may be: what one may hold besides its solid
 _WHEEL = 1.25  # times its solid: what the hull of something round may hold
 _FINER = 3  # times the shapes: pieces to cut first, which are then put together again
+_CUTS = 64  # of a shell that the work has to allow, or else it is not cut if it is of rods
 _LARGE = 0.01  # of the hull of all: excess from which on a piece is not joined with others
 _HOPELESS = 1.3  # times its solid: what a hull may hold when cutting has ended, before a tool is asked
 _WORTH_A_TOOL = 0.01  # of the hull of all: excess from which on a tool is asked
@@ -91,9 +93,14 @@ def decompose(vertices: FloatArray, faces: IntArray, budget: Budget = Budget()) 
         return Decomposition((_shape(replace(whole, volume=solid), budget),))
     if whole.hull_volume <= _WHEEL * solid and (wheel := _round(whole)):
         return Decomposition((wheel,))
+    dear = 0 if len(pieces) > budget.shapes else budget.work // _CUTS
     least, finer = _LEAST * (budget.tight - 1) * whole.hull_volume, _FINER * budget.shapes
     cuts, work = cut(
-        _joined(pieces, finer, budget.tight, whole.hull_volume), finer, budget.tight, least, budget.work
+        _joined(straightened(pieces, dear), finer, budget.tight, whole.hull_volume),
+        finer,
+        budget.tight,
+        least,
+        budget.work,
     )
     found = mended(cuts, budget.shapes, cut_tight(budget.tight), least)
     return replace(_with_tool(found, budget, _WORTH_A_TOOL * whole.hull_volume), work=work)

@@ -7,7 +7,7 @@ import numpy as np
 from .arrays import FloatArray
 from .hulls import MIN_THICKNESS
 
-_MOST_CANDIDATES = 256
+_MOST_CANDIDATES = 512
 
 
 def grouped(boxes: list[FloatArray], most: int) -> list[list[int]]:

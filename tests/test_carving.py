@@ -13,7 +13,7 @@ from simart_kit.hulls import hull_of, volume
 from simart_kit.mesh import Mesh
 from simart_kit.primitive_meshes import primitive_shape
 from simart_kit.primitives import Primitive
-from simart_kit.separation import overlaps
+from simart_kit.separation import CLEARANCE, overlaps
 
 CUBE = aligned_box(np.zeros(3), np.ones(3))
 
@@ -101,6 +101,20 @@ class TestParts:
         assert done.part("body").collision == asset.part("body").collision
         lost = 0.0505 * 0.1005 * 0.1005  # with the clearance on three sides
         assert volume_of(done.part("door")) >= 2.95 - lost - 0.06
+
+    def test_no_part_gives_way_that_would_lose_its_extent(self):
+        # The pivot is a smaller share of its part than what it takes of the blade, which gives way even so.
+        handle, pivot = box([0, 0, 0], [1, 1, 1]), box([1.9, 0.4, 0], [2, 0.5, 0.1])
+        asset = asset_of(handle=[handle, pivot], blade=[box([1.8, 0.3, 0], [2.1, 0.6, 0.1])])
+        done = carved_apart(asset)
+        assert overlaps(done) == ()
+        assert done.part("handle").collision == asset.part("handle").collision
+        hole = 0.1 * (0.1 + 2 * CLEARANCE) ** 2
+        assert volume_of(done.part("blade")) == pytest.approx(0.3 * 0.3 * 0.1 - hole)
+
+    def test_parts_that_would_both_lose_all_stay_as_they_are(self):
+        done = carved_apart(asset_of(body=[CUBE], door=[CUBE]))
+        assert [p.collision for p in done.parts] == [(CUBE,), (CUBE,)]
 
     def test_parts_that_are_apart_stay_as_they_are(self):
         asset = asset_of(body=[CUBE], door=[box([2, 0, 0], [3, 1, 1])])

@@ -120,6 +120,18 @@ class TestSettle:
         assert not result.passed
         assert result.evidence["stands"] == pytest.approx(45.0, abs=0.1)
 
+    def test_feet_of_unequal_height_let_it_lean(self, tmp_path: Path) -> None:
+        """One foot ends at x = -0.03 on the floor, the other at 0.05 and 4 mm up: 2.86 degrees."""
+        body = """<body name="b"><freejoint/><geom type="box" size="0.05 0.05 0.01" pos="0 0 0.03"/>
+        <geom type="box" size="0.01 0.05 0.01" pos="-0.04 0 0.01"/>
+        <geom type="box" size="0.01 0.05 0.01" pos="0.04 0 {}"/></body>"""
+        result = judged("settle", mjcf(tmp_path / "a", body.format(0.014)))
+        assert result.passed
+        assert result.evidence["leans"] == pytest.approx(degrees(atan2(0.004, 0.08)), abs=0.001)
+        assert result.evidence["tilt"] == pytest.approx(result.evidence["leans"], abs=0.2)
+        higher = judged("settle", mjcf(tmp_path / "b", body.format(0.018)))
+        assert (higher.passed, higher.evidence["leans"]) == (False, 0.0)  # 8 mm up is no foot
+
     def test_thresholds(self) -> None:
         subject = Subject({}, cabinet())
         assert judged("settle", subject).passed

@@ -11,6 +11,7 @@ from ..hulls import hull_of
 from ..moments import solid_moments
 from ..stages import Check
 from ..stages import Options as StageOptions
+from ..triangles import unit_normals
 from . import CheckResult
 from .subject import Subject
 
@@ -26,6 +27,7 @@ _UNKNOWN = 90.0  # slope of what has no shapes [degrees]: it is judged by its dr
 class Settle(Check):
     """Dropped from 2 cm it rests after three seconds, upright, on the floor, and nothing broke.
 
+    What lies on feet of unequal height leans onto them, as scissors on their handles do.
     What could not stand if it were solid all through is mounted somewhere, as a tap is: while its base is
     fixed, it need not.
     """
@@ -54,18 +56,19 @@ class Settle(Check):
         if not _free_joints(model):
             return CheckResult(self.name, True, "joints hang on the world: there is no base to drop")
         found = _drop(model, self.options)
+        found["stands"], found["leans"] = _stance(subject, self.options.sink)
         bad = {
             f"MuJoCo warned {found['warnings']:g} times": found["warnings"] > 0,
             f"it still moves at {found['speed']:.2g} m/s": not found["speed"] <= self.options.speed,
-            f"it tilts by {found['tilt']:.2g} degrees": not found["tilt"] <= self.options.tilt,
+            f"it tilts by {found['tilt']:.2g} degrees": (
+                not found["tilt"] <= found["leans"] + self.options.tilt
+            ),
             f"it is {found['sink'] * 1000:.3g} mm lower than it stood": (
                 not abs(found["sink"]) <= self.options.sink
             ),
         }
         wrong = [text for text, is_wrong in bad.items() if is_wrong]
-        slope = _slope(subject, self.options.sink)
-        found["stands"] = slope
-        if wrong and slope < self.options.stands and not (found["warnings"] or _floats(subject)):
+        if wrong and found["stands"] < self.options.stands and not (found["warnings"] or _floats(subject)):
             return CheckResult(self.name, True, "does not stand by itself: keep its base fixed", found)
         sound = f"at rest {self.options.seconds:g} s after a drop from {self.options.height * 100:g} cm"
         return CheckResult(self.name, not wrong, "; ".join(wrong) or sound, found)
@@ -102,20 +105,20 @@ def _floats(subject: Subject) -> bool:
     return any(joint.type == free for joint in mujoco.MjSpec.from_file(str(file)).joints)
 
 
-def _slope(subject: Subject, near: float) -> float:
-    """Slope on which its collision shapes would tip over at rest, all of one density [degrees].
+def _stance(subject: Subject, near: float) -> tuple[float, float]:
+    """Slope on which its shapes would tip over at rest, and tilt at which they lie on their feet [degrees].
 
     Args:
-        subject: 90 where a body has no shapes.
+        subject: its shapes are all of one density; 90 and 0 where a body has none.
         near: how far above the lowest points others are feet as well [m].
     """
     mechanism = subject.simulation.mechanism
     if not all(body.colliders for body in mechanism.bodies if body.mass and body.mass.mass > 0):
-        return _UNKNOWN
+        return _UNKNOWN, 0.0
     shapes = [points for body in mechanism.bodies for points in body.colliders]
     hulls = [hull for hull in map(hull_of, shapes) if hull]
     if not hulls:
-        return _UNKNOWN
+        return _UNKNOWN, 0.0
     moments = sum((solid_moments(hull.vertices[hull.faces]).sum(axis=0) for hull in hulls), np.zeros((4, 4)))
     center, points = moments[:3, 3] / moments[3, 3], np.concatenate(shapes)
     feet = points[points[:, 2] <= mechanism.bounds[0, 2] + near]
@@ -123,7 +126,24 @@ def _slope(subject: Subject, near: float) -> float:
     ways = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     # How far the centre is inside the feet's hull: where it is nearest to the hull's edge.
     inside = float(((feet[:, :2] - center[:2]) @ ways.T).max(axis=0).min())
-    return float(np.degrees(np.arctan2(inside, center[2] - mechanism.bounds[0, 2])))
+    slope = float(np.degrees(np.arctan2(inside, center[2] - mechanism.bounds[0, 2])))
+    return slope, _lean(np.concatenate([hull.vertices for hull in hulls]), center, near)
+
+
+def _lean(points: FloatArray, center: FloatArray, near: float) -> float:
+    """Tilt of the face below a (3,) centre, of the hull of (N, 3) points [degrees]; 0 where it is no foot."""
+    hull = hull_of(points)
+    assert hull is not None  # of shapes that are thick
+    triangles = hull.vertices[hull.faces]
+    normals = unit_normals(triangles)
+    down = normals[:, 2] < -1e-6
+    triangles, normals = triangles[down], normals[down]
+    # Below the centre, the plane of the face that is there is above those of all others.
+    height = triangles[:, 0, 2] - ((center - triangles[:, 0]) * normals)[:, :2].sum(axis=1) / normals[:, 2]
+    below = int(np.argmax(height))
+    if triangles[below, :, 2].max() > points[:, 2].min() + near:
+        return 0.0
+    return float(np.degrees(np.arccos(-normals[below, 2])))
 
 
 def _free_joints(model: mujoco.MjModel) -> list[int]:

@@ -26,6 +26,7 @@ from simart_kit.separation import Overlap, overlaps, separated
 
 Shapes = dict[str, Decomposition]  # by name of the part
 _MOST_FACES = 300_000  # of a part that shapes are fitted to; finer ones are coarsened first
+_KEPT = 8  # so many times less than an equal share of the work is kept for each part that comes later
 _REBATES = 1.01  # how tight shapes have to be where parts overlap
 
 
@@ -108,13 +109,13 @@ class Collision(sk.Modifier):
         return separated(asset.with_parts(changed), margin) if margin else asset.with_parts(changed)
 
     def _made(self, asset: sk.Asset, names: Collection[str], tight: float, seconds: float) -> Shapes:
-        """Shapes of some parts. The largest come last: what others leave of work and time is theirs."""
+        """Shapes of some parts, the largest last. Each may take nearly all that is left of work and time."""
         options, made = self.options, {}
         count = np.bincount(asset.face_part)
         order = [i for i in np.argsort(count, kind="stable").tolist() if asset.parts[i].name in names]
-        work = WORK
+        work, kept = WORK, WORK // (_KEPT * len(order))
         for done, index in enumerate(order):
-            share = work // (len(order) - done)
+            share = max(work - kept * (len(order) - done - 1), kept)
             budget = Budget(options.max_shapes, options.max_vertices, tight, share, options.tool, seconds)
             shapes = made[asset.parts[index].name] = self._shapes(asset, index, budget)
             work, seconds = max(work - shapes.work, 0), max(seconds - shapes.tool_seconds, 0.0)

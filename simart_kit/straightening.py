@@ -1,0 +1,85 @@
+"""Bent rods and wires as straight ones: a hull fills the bend that a cut would have to find.
+
+What is thin all along, as wire baskets, grids and frames of tubes are, comes apart by its faces alone: they
+run from bend to bend. No solid is cut, which makes hundreds of wires a matter of tenths of a second.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .arrays import FloatArray, IntArray
+from .closing import Piece
+from .hulls import hull_of, volume
+from .triangles import areas
+
+_SPARSE = 10.0  # times its solid: what the hull of bent rods holds at least; that of a carcass holds less
+_STRAIGHT = 1.5  # times its solid: what the hull of a straight run holds at most
+_GAIN = 0.7  # of a hull that the hulls of its halves may hold together, or else it stays whole
+_THICK = 4  # times the volume behind a unit of its surface: the diameter of a rod
+_MOST_HALVINGS = 8
+
+
+def straightened(pieces: Sequence[Piece], faces: int) -> list[Piece]:
+    """The pieces, with those that are thin and bent as their straight runs.
+
+    Args:
+        pieces: solids.
+        faces: up to which a piece stays as it is: few are better cut.
+    """
+    return [run for piece in pieces for run in _runs(piece, faces)]
+
+
+def _runs(piece: Piece, few: int) -> list[Piece]:
+    """The straight runs of a piece; itself where it is none of several, or has few faces."""
+    if piece.body is None or piece.hull_volume <= _SPARSE * piece.volume or piece.body.num_tri() <= few:
+        return [piece]
+    mesh = piece.body.to_mesh64()
+    vertices, faces = np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts).astype(np.int64)
+    triangles = vertices[faces]
+    depth = piece.volume / float(areas(triangles).sum())
+    found = _parted(triangles, depth, _MOST_HALVINGS)
+    return found if sum(run.hull_volume for run in found) <= _STRAIGHT * piece.volume else [piece]
+
+
+def _parted(triangles: FloatArray, depth: float, halvings: int) -> list[Piece]:
+    """Hulls around (F, 3, 3) triangles: one, or those of their halves where these hold much less.
+
+    Args:
+        triangles: [m].
+        depth: of the solid behind the surface, on average [m].
+        halvings: at most.
+    """
+    solid = depth * float(areas(triangles).sum())
+    points = triangles.reshape(-1, 3)
+    hull = hull_of(points)
+    size = volume(hull) if hull else solid
+    whole = [Piece(hull.vertices if hull else points, min(solid, size), size, None)]
+    if size <= _STRAIGHT * solid or not halvings or len(triangles) < 2:
+        return whole
+    found = [
+        run for half in _halves(triangles, depth) for run in _parted(triangles[half], depth, halvings - 1)
+    ]
+    return found if max(solid, sum(run.hull_volume for run in found)) < _GAIN * size else whole
+
+
+def _halves(triangles: FloatArray, depth: float) -> tuple[IntArray, IntArray]:
+    """(F, 3, 3) triangles parted across an axis, where their boxes, weighted by area, are least."""
+    area, least, thick = areas(triangles), np.inf, _THICK * depth
+    for axis in range(3):
+        order = np.argsort(triangles[:, :, axis].mean(axis=1), kind="stable")
+        cost = _grown(triangles[order], area[order], thick)[:-1]
+        cost += _grown(triangles[order[::-1]], area[order[::-1]], thick)[-2::-1]
+        first = int(cost.argmin()) + 1
+        if cost[first - 1] < least:
+            least, halves = float(cost[first - 1]), (order[:first], order[first:])
+    return halves
+
+
+def _grown(triangles: FloatArray, area: FloatArray, thick: float) -> FloatArray:
+    """(F,) volume of the box, `thick` at least, around the first so many triangles, times their area."""
+    lower = np.minimum.accumulate(triangles.min(axis=1))
+    upper = np.maximum.accumulate(triangles.max(axis=1))
+    return np.asarray(np.maximum(upper - lower, thick).prod(axis=1) * np.cumsum(area))
