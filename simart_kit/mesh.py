@@ -11,7 +11,7 @@ import numpy as np
 
 from .arrays import ByteArray, FloatArray, IntArray, frozen_bytes, frozen_floats, frozen_ints, units
 from .errors import BadInputError
-from .triangles import areas, unit_normals
+from .triangles import areas_and_normals
 
 UpAxis = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
 
@@ -163,20 +163,27 @@ class Mesh:
     @cached_property
     def face_areas(self) -> FloatArray:
         """(F,) areas, in square units."""
-        return frozen_floats(areas(self.triangles))
+        return self._areas_and_normals[0]
 
     @cached_property
     def face_normals(self) -> FloatArray:
         """(F, 3) unit normals; zero for a face without area."""
-        return frozen_floats(unit_normals(self.triangles))
+        return self._areas_and_normals[1]
+
+    @cached_property
+    def _areas_and_normals(self) -> tuple[FloatArray, FloatArray]:
+        areas, normals = areas_and_normals(self.vertices, self.faces)
+        areas.setflags(write=False)
+        normals.setflags(write=False)
+        return areas, normals
 
     @cached_property
     def bounds(self) -> FloatArray:
         """(2, 3) lower and upper corner of the vertices that faces use."""
         used = np.zeros(len(self.vertices), dtype=np.bool_)
         used[self.faces] = True
-        points = self.vertices[used]
-        return frozen_floats([points.min(axis=0), points.max(axis=0)])
+        columns = self.vertices.compress(used, axis=0).T
+        return frozen_floats([[column.min() for column in columns], [column.max() for column in columns]])
 
     @property
     def diagonal(self) -> float:

@@ -1,4 +1,4 @@
-"""Mesh -> segments: connected components, and patches between creases or grooves where all is fused."""
+"""Mesh -> segments: connected components, and crease-bounded patches where everything is fused."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ CREASE_ANGLE = np.deg2rad(25.0)
 # A component that spans the object may be several solids welded together. It is fused when one of them still
 # spans the object and holds nearly all of its surface.
 _SPANNING, _FUSED_AREA = 0.95, 0.85
+_SOME = 32  # each so many faces are a first look at how far they extend
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +30,7 @@ class Segments:
         count: number of segments.
         duplicates: faces that repeat an earlier one; they share its segment.
         degenerates: faces without area; they join nothing, and share the largest segment that they touch.
-        patches: whether a fused component was cut at its creases, a fine one by `relief_pieces`.
+        patches: whether a fused component was cut at its creases.
     """
 
     face_segment: IntArray
@@ -49,19 +50,25 @@ class Segments:
 
 
 def find_segments(
-    mesh: Mesh, crease: float = CREASE_ANGLE, node_hint: bool = False, vertex: IntArray | None = None
+    mesh: Mesh,
+    crease: float = CREASE_ANGLE,
+    node_hint: bool = False,
+    vertex: IntArray | None = None,
+    relief: bool = False,
 ) -> Segments:
     """Cut a mesh into segments.
 
     Args:
         mesh: faces keep their order; nothing is removed from it.
-        crease: dihedral angle that bounds the patches of a coarse fused component [rad].
+        crease: dihedral angle that bounds the patches of a fused component [rad].
         node_hint: never join faces of different scene-graph nodes.
         vertex: (V,) welded id of every vertex, as `weld` gives it with `WELD_TOLERANCE`, where known.
+        relief: cut a finely meshed fused component into few pieces, as `relief_pieces` does, and not into
+            patches: a rough one has thousands.
     """
     if vertex is None:
         vertex = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE)
-    corners = vertex[mesh.faces]
+    corners = vertex.take(mesh.faces)
     degenerate = _degenerate(mesh, corners)
     first = first_alike(corners)
     duplicate = (first != np.arange(len(corners))) & ~degenerate
@@ -69,9 +76,9 @@ def find_segments(
     keys = corners
     if node_hint and mesh.face_node is not None:
         keys = corners + int(vertex.max() + 1) * mesh.face_node[:, None]
-    found, fused = _pieces(mesh, keys[kept], kept, crease)
+    found, fused = _pieces(mesh, keys.take(kept, axis=0), kept, crease, relief)
     labels = np.zeros(len(corners), dtype=np.int64)
-    labels[kept] = _by_area(found, mesh.face_areas[kept])
+    labels[kept] = _by_area(found, mesh.face_areas.take(kept))
     labels[degenerate] = _largest_beside(labels, corners, degenerate, kept)
     labels[duplicate] = labels[first[duplicate]]
     return Segments(
@@ -84,7 +91,9 @@ def find_segments(
     )
 
 
-def _pieces(mesh: Mesh, corners: IntArray, kept: IntArray, crease: float) -> tuple[IntArray, bool]:
+def _pieces(
+    mesh: Mesh, corners: IntArray, kept: IntArray, crease: float, relief: bool
+) -> tuple[IntArray, bool]:
     """(K,) labels of the `kept` faces, and whether a fused component was cut at its creases.
 
     Args:
@@ -92,51 +101,70 @@ def _pieces(mesh: Mesh, corners: IntArray, kept: IntArray, crease: float) -> tup
         corners: (K, 3) what the faces meet at.
         kept: (K,) ids of the faces.
         crease: dihedral angle that bounds the patches of a fused component [rad].
+        relief: whether a finely meshed one is cut into pieces instead.
     """
+    surface = _Surface(mesh, mesh.faces.take(kept, axis=0), mesh.face_areas.take(kept))
     joints = _joints(*half_edges(corners), mesh.face_normals.take(kept, axis=0))
     smooth = joints.patches(crease)
     sheets = joints.patches(np.pi, smooth)
     found = touching(corners, sheets)
-    spanning = _spanning_component(mesh, found, kept)
+    spanning = surface.spanning(found)
     if spanning is not None:
         inside = found == spanning
         found[inside] = found.max() + 1 + sheets[inside]
-        spanning = _spanning_component(mesh, found, kept)
-    if spanning is None or _share(mesh, found, kept, spanning) < _FUSED_AREA:
+        spanning = surface.spanning(found)
+    if spanning is None or surface.share(found == spanning) < _FUSED_AREA:
         return found, False
     inside = found == spanning
-    if is_fine(mesh, kept[inside]):
+    if relief and is_fine(mesh, kept[inside]):
         pieces = relief_pieces(mesh, corners[inside], kept[inside])
+    elif inside.all():
+        pieces = smooth
     else:
         pieces = joints.among(inside).patches(crease, smooth)[inside]
     found[inside] = found.max() + 1 + pieces
     return found, True
 
 
+@dataclass(frozen=True, eq=False)
+class _Surface:
+    """Some faces of a mesh.
+
+    Attributes:
+        mesh: theirs.
+        faces: (K, 3) vertex ids.
+        areas: (K,) in square units.
+    """
+
+    mesh: Mesh
+    faces: IntArray
+    areas: FloatArray
+
+    def spanning(self, labels: IntArray) -> int | None:
+        """The one of (K,) labels with most surface, if it spans the object."""
+        if not len(labels):
+            return None
+        largest = int(np.bincount(labels, self.areas).argmax())
+        inside = np.flatnonzero(labels == largest)
+        whole = self.mesh.bounds[1] - self.mesh.bounds[0]
+        # Some of its faces often show that it does, in little time.
+        for some in (inside[::_SOME], inside):
+            used = np.zeros(len(self.mesh.vertices), dtype=np.bool_)
+            used[self.faces.take(some, axis=0)] = True
+            columns = self.mesh.vertices.compress(used, axis=0).T
+            if (np.array([np.ptp(column) for column in columns]) >= _SPANNING * whole).all():
+                return largest
+        return None
+
+    def share(self, inside: BoolArray) -> float:
+        """Share of the area that lies in (K,) some of the faces."""
+        return float(self.areas[inside].sum() / self.areas.sum())
+
+
 def _degenerate(mesh: Mesh, corners: IntArray) -> BoolArray:
     a, b, c = corners.T
     tiny = mesh.face_areas < (mesh.diagonal * 1e-9) ** 2
     return np.asarray((a == b) | (b == c) | (c == a) | tiny)
-
-
-def _spanning_component(mesh: Mesh, labels: IntArray, kept: IntArray) -> int | None:
-    """The one of (K,) `labels` of the `kept` faces with most surface, if it spans the object."""
-    areas = np.bincount(labels, mesh.face_areas[kept], minlength=1)
-    largest = int(areas.argmax())
-    used = np.zeros(len(mesh.vertices), dtype=np.bool_)
-    used[mesh.faces.take(kept.take(np.flatnonzero(labels == largest)), axis=0)] = True
-    if not used.any():
-        return None
-    ids = np.flatnonzero(used)
-    extent = np.array([np.ptp(column.take(ids)) for column in mesh.vertices.T])
-    whole = mesh.bounds[1] - mesh.bounds[0]
-    return largest if (extent >= _SPANNING * whole).all() else None
-
-
-def _share(mesh: Mesh, labels: IntArray, kept: IntArray, label: int | None) -> float:
-    """Share of the surface that one of the labels holds."""
-    areas = mesh.face_areas[kept]
-    return float(areas[labels == label].sum() / areas.sum()) if label is not None else 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,18 +201,17 @@ class _Joints:
             crease: dihedral angle.
             known: (F,) labels 0.. of faces that are connected for sure, which saves time.
         """
-        flat = np.flatnonzero(self.cosine >= np.cos(crease))
-        left, right = self.left.take(flat), self.right.take(flat)
+        flat = self.cosine >= np.cos(crease)
         if known is None:
-            return connected(len(self.normals), left, right)
-        left, right = known.take(left), known.take(right)
-        apart = left != right
-        return connected(int(known.max(initial=-1)) + 1, left[apart], right[apart])[known]
+            return connected(len(self.normals), self.left[flat], self.right[flat])
+        left, right = known.take(self.left), known.take(self.right)
+        apart = flat & (left != right)
+        return connected(int(known.max(initial=-1)) + 1, left[apart], right[apart]).take(known)
 
 
 def _joints(half: IntArray, edge: IntArray, normals: FloatArray) -> _Joints:
     first = shared_by_two(edge)
-    left, right = half.take(first) // 3, half.take(first + 1) // 3
+    left, right = (half.take(at).astype(np.int32) // 3 for at in (first, first + 1))
     return _Joints(half, edge, normals, left, right, cosines(normals, left, right))
 
 
@@ -196,8 +223,10 @@ def _largest_beside(labels: IntArray, corners: IntArray, wanted: BoolArray, kept
     at_vertex = np.full(int(corners.max()) + 1, none, dtype=np.int64)
     touched = np.zeros(len(at_vertex), dtype=np.bool_)
     touched[corners[wanted]] = True
-    a, b, c = touched.take(corners).T
-    beside = kept[(a | b | c)[kept]]
+    is_kept = np.zeros(len(labels), dtype=np.bool_)
+    is_kept[kept] = True
+    beside = np.flatnonzero(touched.take(corners)) // 3
+    beside = beside[is_kept[beside]]
     np.minimum.at(at_vertex, corners[beside].ravel(), np.repeat(labels[beside], 3))
     found = at_vertex[corners[wanted]].min(axis=1)
     return np.where(found < none, found, 0)

@@ -15,14 +15,19 @@ def crosses(triangles: FloatArray) -> FloatArray:
     """(F, 3) normals towards where the corners run counter-clockwise, as long as twice the area."""
     normals = np.zeros((len(triangles), 3))
     for some in chunks(len(triangles)):
-        # Column by column, several times as fast as `numpy.cross`.
-        a, b, c = np.array(triangles[some].reshape(-1, 9).T, dtype=np.float64, order="C").reshape(3, 3, -1)
-        b -= a
-        c -= a
-        for axis in range(3):
-            after, last = (axis + 1) % 3, (axis + 2) % 3
-            normals[some, axis] = b[after] * c[last] - b[last] * c[after]
+        normals[some] = _crosses(triangles[some]).T
     return normals
+
+
+def _crosses(triangles: FloatArray) -> FloatArray:
+    """(3, F) the same by axis, several times as fast as `numpy.cross`."""
+    a, b, c = np.array(triangles.reshape(-1, 9).T, dtype=np.float64, order="C").reshape(3, 3, -1)
+    b -= a
+    c -= a
+    for axis in range(3):
+        after, last = (axis + 1) % 3, (axis + 2) % 3
+        a[axis] = b[after] * c[last] - b[last] * c[after]
+    return np.asarray(a)
 
 
 def areas(triangles: FloatArray) -> FloatArray:
@@ -35,6 +40,17 @@ def unit_normals(triangles: FloatArray) -> FloatArray:
     normals = crosses(triangles)
     length = lengths(normals)[:, None]
     return np.asarray(np.divide(normals, length, out=np.zeros_like(normals), where=length > 0))
+
+
+def areas_and_normals(points: FloatArray, faces: IntArray) -> tuple[FloatArray, FloatArray]:
+    """The same (F,) areas and (F, 3) unit normals at once, of (F, 3) faces on (V, 3) points."""
+    area, normals = np.zeros(len(faces)), np.zeros((len(faces), 3))
+    for some in chunks(len(faces)):
+        cross = _crosses(points.take(faces[some], axis=0))
+        length = lengths(cross.T)
+        area[some] = 0.5 * length
+        np.divide(cross, length, out=normals[some].T, where=length > 0)
+    return area, normals
 
 
 def cosines(normals: FloatArray, left: IntArray, right: IntArray) -> FloatArray:

@@ -45,7 +45,7 @@ PANELS: list[Box] = [((8, 0, 8), (52, 1, 46)), ((8, 0, 54), (52, 1, 92))]
 class TestGrooves:
     def test_a_slab_before_a_block_is_a_piece(self) -> None:
         mesh = skin(SLAB)
-        segments = find_segments(mesh)
+        segments = find_segments(mesh, relief=True)
         assert segments.patches
         above, slab, below = (at(mesh, segments, (30, y, z)) for y, z in ((10, 92), (4, 50), (10, 8)))
         assert len({above, slab, below}) == 3
@@ -56,7 +56,7 @@ class TestGrooves:
         mesh = skin(SLAB)
         rng = np.random.default_rng(0)
         rough = Mesh(mesh.vertices + rng.normal(0, 0.001, mesh.vertices.shape), mesh.faces)
-        smooth, found = find_segments(mesh), find_segments(rough)
+        smooth, found = find_segments(mesh, relief=True), find_segments(rough, relief=True)
         assert found.count == smooth.count
         assert (found.face_segment == smooth.face_segment).mean() > 0.9
 
@@ -64,14 +64,17 @@ class TestGrooves:
         mesh = skin(SLAB)
         turn = Rotation.from_euler("zyx", (20, 10, 50), degrees=True).as_matrix()
         turned = Mesh(40 * mesh.vertices @ turn.T, mesh.faces)
-        one, other = find_segments(mesh).face_segment, find_segments(turned).face_segment
+        one, other = (
+            find_segments(mesh, relief=True).face_segment,
+            find_segments(turned, relief=True).face_segment,
+        )
         # The radius goes by the longest side of the box around it, which turning changes.
         pairs = np.bincount(one * (int(other.max()) + 1) + other)
         assert np.sort(pairs)[-(int(one.max()) + 1) :].sum() > 0.95 * len(one)
 
     def test_every_face_has_a_segment_largest_first(self) -> None:
         mesh = skin(SLAB)
-        segments = find_segments(mesh)
+        segments = find_segments(mesh, relief=True)
         areas = np.bincount(segments.face_segment, mesh.face_areas)
         assert len(areas) == segments.count
         assert (np.diff(areas) <= 0).all()
@@ -86,12 +89,12 @@ class TestSeams:
 
     def test_a_region_of_another_colour_is_a_piece(self) -> None:
         mesh = self.colored(np.array([[10, -1, 20], [50, 1, 60]]))
-        segments = find_segments(mesh)
+        segments = find_segments(mesh, relief=True)
         assert at(mesh, segments, (30, 0, 40)) != at(mesh, segments, (30, 0, 90))
 
     def test_a_stain_is_none(self) -> None:
         mesh = self.colored(np.array([[30, -1, 40], [33, 1, 43]]))
-        segments = find_segments(mesh)
+        segments = find_segments(mesh, relief=True)
         assert at(mesh, segments, (31, 0, 41)) == at(mesh, segments, (30, 0, 90))
 
 
@@ -104,7 +107,7 @@ def where_in(mesh: Mesh, box: FloatArray) -> BoolArray:
 class TestFrames:
     def test_a_frame_is_shared_out_among_the_panels_set_in_it(self) -> None:
         mesh = skin(FRAME, PANELS)
-        segments = find_segments(mesh)
+        segments = find_segments(mesh, relief=True)
         low, high = at(mesh, segments, (4, 0, 27)), at(mesh, segments, (4, 0, 73))
         assert low != high
         front = np.isin(segments.face_segment, (low, high)) & (mesh.face_normals[:, 1] < -0.9)
@@ -115,7 +118,7 @@ class TestFrames:
     def test_slabs_that_stand_out_leave_their_frame_whole(self) -> None:
         slabs: list[Box] = [((8, -3, 8), (52, 0, 46)), ((8, -3, 54), (52, 0, 92))]
         mesh = skin([((0, 0, 0), (60, 60, 100)), *slabs])
-        segments = find_segments(mesh)
+        segments = find_segments(mesh, relief=True)
         assert at(mesh, segments, (4, 0, 27)) == at(mesh, segments, (4, 0, 73))
 
 
@@ -123,7 +126,7 @@ def test_a_coarse_skin_is_cut_at_its_creases() -> None:
     corners = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
     quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
     faces = [face for a, b, c, d in quads for face in ((a, b, c), (a, c, d))]
-    assert find_segments(Mesh(corners, np.array(faces))).count == 6
+    assert find_segments(Mesh(corners, np.array(faces)), relief=True).count == 6
 
 
 @needs_data

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray, units
 from ..topology import edge_ends, half_edges, shared_by_two, unique_rows
-from ..triangles import cosines, unit_normals
+from ..triangles import areas_and_normals, cosines
 
 CREASE_ANGLE = np.deg2rad(25.0)
 # Edges with more faces than this link none; pairing takes time with the square.
@@ -59,7 +59,7 @@ def edge_links(points: FloatArray, faces: IntArray) -> EdgeLinks:
         more, others = _across_material(points, faces, crowded, edge)
         one, two = np.concatenate([one, more]), np.concatenate([two, others])
     left, right = one // 3, two // 3
-    bent = cosines(unit_normals(points.take(faces, axis=0)), left, right) < np.cos(CREASE_ANGLE)
+    bent = cosines(areas_and_normals(points, faces)[1], left, right) < np.cos(CREASE_ANGLE)
     creased = np.zeros(len(points), dtype=np.bool_)
     for sharp in (one[bent], two[bent], crowded):
         creased[faces[sharp // 3, sharp % 3]] = True

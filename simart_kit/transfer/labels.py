@@ -87,12 +87,14 @@ def transfer(
     place = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE) if segments is None else segments.vertex
     vertex, points, faces = _welded(mesh, place)
     with ThreadPoolExecutor(1) as beside:
+        inner = beside.submit(inside_points, points, faces, known.sigma)
+        likely = known.probabilities(points)  # of itself on all cores
         # Neither needs the other: segments are found on one core while the seeds vote on another.
         finding = None
         if mode == "segments" and segments is None:
-            finding = beside.submit(find_segments, mesh, vertex=place)
-        inside = inside_points(points, faces, known.sigma)
-        likely, label, margin = _voted(known, points, faces, inside, iterations)
+            finding = beside.submit(find_segments, mesh, vertex=vertex)
+        inside = inner.result()
+        likely, label, margin = _voted(known, likely, points, faces, inside, iterations)
         segments = segments if finding is None else finding.result()
     if mode == "segments" and segments is not None:
         weight = mesh.face_areas * margin
@@ -112,17 +114,22 @@ def _welded(mesh: Mesh, vertex: IntArray) -> tuple[IntArray, FloatArray, IntArra
     leads[first] = True
     number = np.cumsum(leads) - 1
     vertex = number.take(first).take(vertex)
-    return vertex, mesh.vertices.take(np.flatnonzero(leads), axis=0), vertex.take(mesh.faces)
+    return vertex, mesh.vertices.compress(leads, axis=0), vertex.take(mesh.faces)
 
 
 def _voted(
-    known: PartSeeds, points: FloatArray, faces: IntArray, inside: InsidePoints, iterations: int
+    known: PartSeeds,
+    likely: Float32Array,
+    points: FloatArray,
+    faces: IntArray,
+    inside: InsidePoints,
+    iterations: int,
 ) -> tuple[Float32Array, IntArray, FloatArray]:
     """Smoothed (W, P) probabilities at the points, and (F,) labels with how sure each is, 0..1."""
-    likely = known.probabilities(points)
-    likeliest, agreed = unanimous(likely, faces)
+    likely = likely.copy()
+    label, agreed = unanimous(likely, faces)
     agreed[inside.faces] = False
-    label, margin = likeliest[faces[:, 0]], np.ones(len(faces))
+    margin = np.ones(len(faces))
     if not agreed.all():
         region = region_around(points, faces, ~agreed)
         smooth, ballot = _decided(known, likely.take(region.vertex_ids, axis=0), region, inside, iterations)
@@ -144,8 +151,10 @@ def _decided(
     wanted = np.flatnonzero(region.wanted)
     ballot = vote(likely, region.faces.take(wanted, axis=0), _TIE, np.searchsorted(wanted, large), sums)
     tied = wanted[ballot.tied]
-    label = likely.argmax(axis=1)[region.faces[:, 0]]
+    label = np.zeros(len(region.faces), dtype=np.int64)
     label[wanted] = ballot.label
+    beside = np.flatnonzero(~region.wanted)
+    label[beside] = likely.take(region.faces[beside, 0], axis=0).argmax(axis=1)
     middles = _middles(region.points, region.faces)
     ways = ways_to_parts(middles, links, tied, label, ballot.contenders)
     shortest = ways.min(axis=1, initial=np.inf, keepdims=True)

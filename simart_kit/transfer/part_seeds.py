@@ -52,7 +52,11 @@ class PartSeeds:
         """Find the nearest seed of each part."""
         from scipy.spatial import cKDTree
 
-        return tuple(cKDTree(self.points[self.part == part]) for part in range(self.count))
+        return tuple(
+            # Cut in the middle of space, not of the seeds, it answers a little faster.
+            cKDTree(self.points[self.part == part], balanced_tree=False)
+            for part in range(self.count)
+        )
 
     @cached_property
     def own(self) -> tuple[cKDTree, ...]:
@@ -89,7 +93,7 @@ class PartSeeds:
         for part, (rows, distance) in enumerate(found):
             ratio = np.exp((nearest.take(rows) ** 2 - distance**2) / (2 * self.sigma**2))
             likely[rows, part] = np.where(ratio < _LEAST_RATIO, 0, ratio)
-        likely /= likely.sum(axis=1, keepdims=True)
+        likely /= np.einsum("ij->i", likely)[:, None]
         return likely
 
     def _possible(self, cells: Cells) -> tuple[BoolArray, FloatArray]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -78,21 +79,25 @@ def inside_points(points: FloatArray, faces: IntArray, spacing: float) -> Inside
 
 def _extent(points: FloatArray, faces: IntArray) -> Float32Array:
     """(F,) longest side of each face's bounding box [m], in single precision."""
-    rows = np.stack([(column - column.mean()).astype(np.float32) for column in points.T], axis=1)
+    columns = [(column - column.mean()).astype(np.float32) for column in points.T]
     longest = np.zeros(len(faces), dtype=np.float32)
     for some in chunks(len(faces)):
-        a, b, c = np.ascontiguousarray(rows.take(faces[some], axis=0).reshape(-1, 9).T).reshape(3, 3, -1)
-        sides = np.maximum(np.maximum(a, b), c) - np.minimum(np.minimum(a, b), c)
-        longest[some] = sides.max(axis=0)
+        corners = np.ascontiguousarray(faces[some].T)
+        for column in columns:
+            a, b, c = (column.take(corner) for corner in corners)
+            side = np.maximum(np.maximum(a, b), c) - np.minimum(np.minimum(a, b), c)
+            np.maximum(longest[some], side, out=longest[some])
     return longest
 
 
 def unanimous(likely: Float32Array, faces: IntArray) -> tuple[IntArray, BoolArray]:
-    """(V,) most likely part at each vertex, and (F,) whether a face's corners agree on one for sure."""
-    label = likely.argmax(axis=1).astype(np.int32)
-    told = np.where(likely[np.arange(len(likely)), label] >= _SURE, label, -1)
+    """(F,) part that a face's first corner is sure of, -1 if none, and whether the others agree."""
+    sure = np.flatnonzero(likely >= _SURE)
+    vertex = sure // likely.shape[1]
+    told = np.full(len(likely), -1, dtype=np.int64)
+    told[vertex] = sure - vertex * likely.shape[1]
     a, b, c = told.take(faces).T
-    return label, (a == b) & (b == c) & (a >= 0)
+    return a, (a == b) & (b == c) & (a >= 0)
 
 
 def vote(likely: Float32Array, faces: IntArray, tie: float, large: IntArray, sums: Float32Array) -> Ballot:
@@ -110,7 +115,7 @@ def vote(likely: Float32Array, faces: IntArray, tie: float, large: IntArray, sum
         for corner in faces[some].T:
             votes[some] += likely.take(corner, axis=0)
     votes[large] += sums
-    votes /= votes.sum(axis=1, keepdims=True)
+    votes /= np.einsum("ij->i", votes)[:, None]
     label = votes.argmax(axis=1)
     rows = np.arange(len(faces))
     top = votes[rows, label]
@@ -134,12 +139,17 @@ def agree_in_segments(
         count: number of parts.
         agreement: share of a segment's weight that the first part needs.
     """
-    table = np.bincount(segment * count + label, weight, (int(segment.max()) + 1) * count).reshape(-1, count)
+    pair = segment * np.int64(count) + label
+    shape = (int(segment.max()) + 1, count)
+    table = np.bincount(pair, weight, math.prod(shape)).reshape(shape)
+    faces = np.bincount(pair, minlength=math.prod(shape)).reshape(shape)
     winner = table.argmax(axis=1)
     unified = table.max(axis=1) >= agreement * table.sum(axis=1)
     minority = table.copy()
     minority[np.arange(len(table)), winner] = 0
     unified &= (minority <= (1 - agreement) * table.sum(axis=0)).all(axis=1)
-    agreed = np.where(unified[segment], winner[segment], label)
-    lost = (np.bincount(label, minlength=count) > 0) & (np.bincount(agreed, minlength=count) == 0)
-    return np.where(lost[label], label, agreed)
+    # What becomes of each part's faces in each segment.
+    agreed = np.where(unified[:, None], winner[:, None], np.arange(count))
+    lost = (faces.sum(axis=0) > 0) & (np.bincount(agreed.ravel(), faces.ravel(), count) == 0)
+    agreed[:, lost] = np.flatnonzero(lost)
+    return np.asarray(agreed.ravel().take(pair))

@@ -30,31 +30,32 @@ def ways_to_parts(
     from scipy.sparse import csr_array
     from scipy.sparse.csgraph import dijkstra
 
-    left, right = np.concatenate([np.stack([links.left, links.right], axis=1), links.repeats]).T
+    left = np.concatenate([links.left, links.repeats[:, 0]])
+    right = np.concatenate([links.right, links.repeats[:, 1]])
     bent = np.concatenate([links.bent, np.zeros(len(links.repeats), dtype=np.bool_)])
     open_ = np.zeros(len(middles), dtype=np.bool_)
     open_[tied] = True
-    near = np.flatnonzero(open_[left] | open_[right])
-    left, right = left[near], right[near]
+    near = np.flatnonzero(open_.take(left) | open_.take(right))
+    left, right = left.take(near), right.take(near)
     cost = lengths(middles.take(left, axis=0) - middles.take(right, axis=0))
-    cost = np.where(bent[near], _CREASE_COST, 1.0) * np.maximum(cost, np.finfo(np.float64).tiny)
+    cost = np.where(bent.take(near), _CREASE_COST, 1.0) * np.maximum(cost, np.finfo(np.float64).tiny)
     # The faces that matter, the tied ones first.
     beside = np.zeros(len(middles), dtype=np.bool_)
     beside[left] = beside[right] = True
     nodes = np.concatenate([tied, np.flatnonzero(beside & ~open_)])
-    here = np.zeros(len(middles), dtype=np.int64)
+    here = np.zeros(len(middles), dtype=np.int32)
     here[nodes] = np.arange(len(nodes))
-    left, right, decided = here[left], here[right], label[nodes[len(tied) :]]
+    left, right, decided = here.take(left), here.take(right), label[nodes[len(tied) :]]
     ways = np.full(contenders.shape, np.inf)
-    for part in np.flatnonzero(contenders.any(axis=0)):
-        mine = np.flatnonzero(contenders[:, part])
-        allowed = np.concatenate([contenders[:, part], decided == part])
+    for part, contends in enumerate(np.ascontiguousarray(contenders.T)):
+        mine = np.flatnonzero(contends)
+        allowed = np.concatenate([contends, decided == part])
         usable = np.flatnonzero(allowed.take(left) & allowed.take(right))
         number = np.cumsum(allowed, dtype=np.int32) - 1
         count = int(allowed.sum())
         ends = (number.take(left.take(usable)), number.take(right.take(usable)))
         graph = csr_array((cost.take(usable), ends), shape=(count, count))
-        if len(mine) < count:
+        if 0 < len(mine) < count:
             sources = np.arange(len(mine), count)
             ways[mine, part] = dijkstra(graph, directed=False, indices=sources, min_only=True)[: len(mine)]
     return ways

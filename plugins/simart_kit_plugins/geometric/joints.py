@@ -137,7 +137,7 @@ def _body(scene: Scene, segmentation: Segmentation) -> int:
 
 def _hardware(mesh: Mesh, scene: Scene, body: int) -> Scene | None:
     """Small connected pieces of the body, as a scene in the same frame; None when there are none."""
-    pieces = find_segments(mesh).face_segment
+    pieces = find_segments(mesh, relief=True).face_segment
     whole = make_scene(mesh, pieces)
     sizes = np.array([np.linalg.norm(box.size) for box in whole.boxes])
     elsewhere = np.bincount(pieces, scene.labels != body, whole.count) > 0

@@ -33,7 +33,7 @@ def parts_of(mesh: Mesh, spec: Spec | None, max_parts: int, crease: float, node_
         crease: angle that bounds patches of a skin [rad].
         node_hint: whether scene-graph nodes stay apart.
     """
-    segments = find_segments(mesh, crease, node_hint)
+    segments = find_segments(mesh, crease, node_hint, relief=True)
     # Segments come largest first: what is beyond the most pieces counts as one, and stays with the body.
     scene = make_scene(mesh, np.minimum(segments.face_segment, _MOST_PIECES))
     movers = _find(scene, segments, spec)[:max_parts]
