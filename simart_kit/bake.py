@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from .arrays import ByteArray, FloatArray, IntArray, frozen_bytes, frozen_floats, frozen_ints
 from .asset import Asset
+from .kept import kept
 from .mesh import Image, VisualMaterial
 from .srgb import tinted
 from .surfaces import Surface, asset_surfaces
@@ -18,7 +20,8 @@ Color = tuple[float, float, float, float]
 _ROTATIONS = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]], dtype=np.int32)
 
 
-def textured_surfaces(asset: Asset) -> dict[str, tuple[Surface, ...]]:
+@kept
+def textured_surfaces(asset: Asset) -> Mapping[str, tuple[Surface, ...]]:
     """The surfaces of every part with all of their colour in one texture, or in `base_color` alone.
 
     Vertex colours become a texture, unless there is one already (see `loses_colors`). Factors that tint a

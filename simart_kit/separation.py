@@ -11,6 +11,7 @@ from .arrays import FloatArray, IntArray
 from .asset import Asset, ConvexMesh, Joint
 from .clipping import extent, pulled_in
 from .convex_overlap import Convex, gap
+from .kept import kept
 from .kinematics import Positions, rest_to_posed, span
 from .primitive_meshes import pose
 from .topology import connected
@@ -21,6 +22,10 @@ TOLERANCE = 1e-5
 CLEARANCE = 0.0005
 """How far shapes of neighbours are kept apart at rest [m]: what touches at rest rubs and sticks."""
 
+Pair = tuple[int, int]
+"""Indices of two parts, ascending."""
+
+_STOPS = 9  # positions tried between the limits of each joint, both included, besides some near rest
 _NEAR_REST = (0.02, 0.05, 0.09)  # of the way to each limit
 _MOST_OF_SHAPE = 0.25  # of its extent that a shape may lose on one side
 
@@ -62,17 +67,14 @@ def overlaps(asset: Asset, positions: Positions | None = None) -> tuple[Overlap,
     Raises:
         BadInputError: a position for a joint that does not exist, or of a wrong size.
     """
-    shapes = _posed(asset, positions)
-    deepest: dict[tuple[int, int], float] = {}
-    for (one, i), (other, j) in _near(asset, shapes, -TOLERANCE):
-        depth = -gap(shapes[one][i], shapes[other][j])[0]
-        if depth > TOLERANCE:
-            deepest[one, other] = max(depth, deepest.get((one, other), 0.0))
-    names = [part.name for part in asset.parts]
-    return tuple(Overlap(names[one], names[other], deepest[one, other]) for one, other in sorted(deepest))
+    shapes = _shapes(asset)
+    if positions:
+        shapes = _posed(shapes, asset, positions)
+    return _named(asset, _deepest(shapes, rigid_bodies(asset)))
 
 
-def overlaps_on_the_way(asset: Asset, stops: int = 9) -> tuple[Overlap, ...]:
+@kept
+def overlaps_on_the_way(asset: Asset) -> tuple[Overlap, ...]:
     """Pairs of a part and one that it moves on, whose shapes overlap somewhere on the joint's own way.
 
     Shapes are coarser than surfaces, and such a pair would stop a door short of its limit. What is fixed to
@@ -80,27 +82,23 @@ def overlaps_on_the_way(asset: Asset, stops: int = 9) -> tuple[Overlap, ...]:
 
     Args:
         asset: with collision shapes.
-        stops: positions tried between the limits of each joint, both included, besides some near rest.
     """
-    found, bodies = dict[tuple[str, str], float](), rigid_bodies(asset)
+    found, shapes, bodies = dict[Pair, float](), _shapes(asset), rigid_bodies(asset)
     for joint in asset.joints:
         if span(joint) == (0.0, 0.0):
             continue
         both = [bodies[asset.part_index(name)] for name in (joint.parent, joint.child)]
-        pair = {part.name for part, body in zip(asset.parts, bodies, strict=True) if body in both}
-        for position in _stops(span(joint), stops):
-            for item in overlaps(_only(asset, pair), {joint.name: position}):
-                key = (item.one, item.other)
-                found[key] = max(item.depth, found.get(key, 0.0))
-    order = {part.name: index for index, part in enumerate(asset.parts)}
-    keys = sorted(found, key=lambda key: (order[key[0]], order[key[1]]))
-    return tuple(Overlap(*key, found[key]) for key in keys)
+        alone = [row if body in both else [] for row, body in zip(shapes, bodies, strict=True)]
+        for position in _stops(span(joint)):
+            met = _deepest(_posed(alone, asset, {joint.name: position}), bodies)
+            found |= {pair: max(depth, found.get(pair, 0.0)) for pair, depth in met.items()}
+    return _named(asset, found)
 
 
-def _stops(ends: tuple[float, float], count: int) -> list[float]:
+def _stops(ends: tuple[float, float]) -> list[float]:
     """Positions from end to end, closer to each other near rest, where edges of a panel pass its frame."""
     near = [share * end for end in ends for share in _NEAR_REST]
-    return sorted({0.0, *near, *np.linspace(*ends, count).tolist()})
+    return sorted({0.0, *near, *np.linspace(*ends, _STOPS).tolist()})
 
 
 def separated(asset: Asset, margin: float, clearance: float = CLEARANCE) -> Asset:
@@ -114,8 +112,8 @@ def separated(asset: Asset, margin: float, clearance: float = CLEARANCE) -> Asse
         margin: most that a shape loses on a side for one neighbour [m].
         clearance: how far apart they are to be [m].
     """
-    shapes = _posed(asset, None)
-    for (one, i), (other, j) in _near(asset, shapes, clearance):
+    shapes = _shapes(asset)
+    for (one, i), (other, j) in _near(shapes, rigid_bodies(asset), clearance):
         first, second = shapes[one][i], shapes[other][j]
         apart, axis = gap(first, second)
         pulls = _pulls(first.shape, second.shape, axis, clearance - apart, margin)
@@ -150,17 +148,22 @@ def _pulls(
     return mine, lacking - mine
 
 
-def _posed(asset: Asset, positions: Positions | None) -> list[list[Convex]]:
-    """The shapes of each part, moved to where the joints put them."""
-    if not positions:
-        return [[Convex(shape) for shape in part.collision] for part in asset.parts]
+def _shapes(asset: Asset) -> list[list[Convex]]:
+    """The shapes of each part at rest."""
+    return [[Convex(shape) for shape in part.collision] for part in asset.parts]
+
+
+def _posed(shapes: Sequence[Sequence[Convex]], asset: Asset, positions: Positions) -> list[list[Convex]]:
+    """Shapes of each part, moved to where the joints put them; those that stay are the same."""
     posed_T_rest = rest_to_posed(asset, positions)
-    return [[Convex(_moved(s, posed_T_rest[p.name])) for s in p.collision] for p in asset.parts]
+    moves = [posed_T_rest[part.name] for part in asset.parts]
+    return [
+        list(row) if np.array_equal(move, np.eye(4)) else [Convex(_moved(c.shape, move)) for c in row]
+        for row, move in zip(shapes, moves, strict=True)
+    ]
 
 
 def _moved(shape: ConvexMesh, matrix: FloatArray) -> ConvexMesh:
-    if np.array_equal(matrix, np.eye(4)):
-        return shape
     rotation, shift = matrix[:3, :3], matrix[:3, 3]
     primitive = shape.primitive
     if primitive is not None:
@@ -170,26 +173,33 @@ def _moved(shape: ConvexMesh, matrix: FloatArray) -> ConvexMesh:
     return ConvexMesh(shape.vertices @ rotation.T + shift, shape.faces, primitive)
 
 
-def _only(asset: Asset, names: set[str]) -> Asset:
-    """The asset with the shapes of some parts alone."""
-    bare = {p.name: replace(p, collision=()) for p in asset.parts if p.name not in names}
-    return asset.with_parts(bare)
+def _deepest(shapes: Sequence[Sequence[Convex]], bodies: IntArray) -> dict[Pair, float]:
+    """How deep parts of different rigid bodies stand in each other [m], where they do."""
+    found: dict[Pair, float] = {}
+    for (one, i), (other, j) in _near(shapes, bodies, -TOLERANCE):
+        depth = -gap(shapes[one][i], shapes[other][j])[0]
+        if depth > TOLERANCE:
+            found[one, other] = max(depth, found.get((one, other), 0.0))
+    return found
+
+
+def _named(asset: Asset, depths: Mapping[Pair, float]) -> tuple[Overlap, ...]:
+    names = [part.name for part in asset.parts]
+    return tuple(Overlap(names[one], names[other], depths[one, other]) for one, other in sorted(depths))
 
 
 def _near(
-    asset: Asset, shapes: Sequence[Sequence[Convex]], reach: float
+    shapes: Sequence[Sequence[Convex]], bodies: IntArray, reach: float
 ) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
     """Pairs (part, shape) of different rigid bodies whose boxes are at most `reach` [m] apart."""
-    body = rigid_bodies(asset)
-    owner = np.array([(p, i) for p, row in enumerate(shapes) for i in range(len(row))], dtype=np.int64)
-    if not len(owner):
+    owner = [(part, i) for part, row in enumerate(shapes) for i in range(len(row))]
+    if not owner:
         return
-    bounds = np.array([shapes[p][i].bounds for p, i in owner])
-    for first in range(len(owner)):
-        later = slice(first + 1, None)
-        close = (bounds[later, 0] <= bounds[first, 1] + reach).all(axis=1)
-        close &= (bounds[later, 1] >= bounds[first, 0] - reach).all(axis=1)
-        close &= body[owner[later, 0]] != body[owner[first, 0]]
-        for second in first + 1 + np.flatnonzero(close):
-            one, other = owner[first].tolist(), owner[second].tolist()
-            yield (one[0], one[1]), (other[0], other[1])
+    lower, upper = np.array([shapes[part][i].bounds for part, i in owner]).transpose(1, 2, 0)
+    body = bodies[[part for part, _ in owner]]
+    close = np.triu(body[:, None] != body)
+    for axis in range(3):
+        close &= lower[axis] <= (upper[axis] + reach)[:, None]
+        close &= upper[axis] >= (lower[axis] - reach)[:, None]
+    for first, second in np.argwhere(close).tolist():
+        yield owner[first], owner[second]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from .arrays import ByteArray, FloatArray, IntArray, frozen_bytes, frozen_floats, frozen_ints
 from .asset import Asset
+from .kept import kept
 from .kinematics import rest_origin
 from .mesh import Image, Mesh, VisualMaterial
 from .normals import with_normals
@@ -51,7 +53,8 @@ class Surface:
         return rgba is not None and bool(rgba[..., 3].min() < 255)
 
 
-def asset_surfaces(asset: Asset) -> dict[str, tuple[Surface, ...]]:
+@kept
+def asset_surfaces(asset: Asset) -> Mapping[str, tuple[Surface, ...]]:
     """The surfaces of every part, by part name; at least one each."""
     mesh = with_normals(asset.mesh)
     result = {}

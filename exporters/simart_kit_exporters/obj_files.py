@@ -10,6 +10,7 @@ import numpy as np
 from simart_kit.arrays import FloatArray, IntArray
 from simart_kit.asset import ConvexMesh, clean_name
 from simart_kit.bake import Color
+from simart_kit.kept import kept
 from simart_kit.mesh import Image, VisualMaterial
 from simart_kit.srgb import linear_to_srgb
 from simart_kit.surfaces import Surface
@@ -30,8 +31,7 @@ def write_surface(surface: Surface, folder: Path, with_material: bool = True) ->
         name = f"{surface.part}_{clean_name(surface.material.name, 'material')}"
         library = _write(folder, surface.part, ".mtl", _mtl(name, surface.material, folder).encode())
         header = f"mtllib {library}\nusemtl {name}\n"
-    text = header + obj_text(surface.vertices, surface.faces, surface.uv, surface.normals)
-    return _write(folder, surface.part, ".obj", text.encode())
+    return _write(folder, surface.part, ".obj", (header + _surface_text(surface)).encode())
 
 
 def write_hull(part: str, hull: ConvexMesh, origin: FloatArray, folder: Path) -> str:
@@ -42,6 +42,11 @@ def write_hull(part: str, hull: ConvexMesh, origin: FloatArray, folder: Path) ->
 def write_texture(image: Image, folder: Path) -> str:
     """Write a picture once, however many surfaces share it; returns the file name."""
     return _write(folder, "texture", ".png", image.png)
+
+
+@kept
+def _surface_text(surface: Surface) -> str:
+    return obj_text(surface.vertices, surface.faces, surface.uv, surface.normals)
 
 
 def obj_text(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
@@ -62,18 +63,25 @@ def _moving_panels(asset: Asset) -> dict[str, Image.Image]:
         picture = _view(meshes[name], camera, ground, own, casters.get(name))
         return _drawn_over(picture, marks[name], camera) if name in marks else picture
 
-    # Casting rays and adding arrays, threads hold each other up little.
-    with ThreadPoolExecutor() as pool:
-        return dict(zip(_FRACTIONS, pool.map(seen, _FRACTIONS), strict=True))
+    return _side_by_side(seen, _FRACTIONS)
 
 
 def _static_panels(asset: Asset) -> dict[str, Image.Image]:
-    mesh, views = PosableMesh.of(asset).mesh, {}
+    mesh = PosableMesh.of(asset).mesh
     caster = Rays(mesh.vertices, mesh.faces)
-    for name, azimuth in (("front left", _AZIMUTHS[0]), ("back right", _AZIMUTHS[2])):
-        camera = framed(mesh.vertices, azimuth, _ELEVATION, aspect=PANEL[0] / PANEL[1])
-        views[name] = _view(mesh, camera, float(mesh.bounds[0, 2]), None, caster)
-    return views
+    azimuths = {"front left": _AZIMUTHS[0], "back right": _AZIMUTHS[2]}
+
+    def seen(name: str) -> Image.Image:
+        camera = framed(mesh.vertices, azimuths[name], _ELEVATION, aspect=PANEL[0] / PANEL[1])
+        return _view(mesh, camera, float(mesh.bounds[0, 2]), None, caster)
+
+    return _side_by_side(seen, azimuths)
+
+
+def _side_by_side(seen: Callable[[str], Image.Image], names: Iterable[str]) -> dict[str, Image.Image]:
+    """The picture of each name, drawn at once: casting rays and adding arrays, threads seldom wait."""
+    with ThreadPoolExecutor() as pool:
+        return dict(zip(names, pool.map(seen, names), strict=True))
 
 
 def _view(

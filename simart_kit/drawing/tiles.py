@@ -84,7 +84,7 @@ def _pass(values: list[Float32Array], surfaces: _Surfaces, sign: int) -> list[Fl
         if (down, across) == (0, 0):
             continue
         here, there = _overlap(weight.shape, sign * down, sign * across)
-        same = surfaces.same(here, there)
+        same = surfaces.same(here, there).astype(np.float32)  # once: each sum below would do it again
         weight[here] += same
         for value, sum_ in zip(values, total, strict=True):
             sum_[here] += value[there] * same

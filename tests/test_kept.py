@@ -1,0 +1,56 @@
+from dataclasses import dataclass, fields, replace
+
+from simart_kit.kept import kept
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    width: float
+
+
+class TestKept:
+    def test_is_worked_out_once_a_value(self) -> None:
+        asked = []
+
+        @kept
+        def area(box: Box) -> float:
+            asked.append(box)
+            return box.width**2
+
+        one, other = Box(2.0), Box(3.0)
+        assert [area(one), area(other), area(one)] == [4.0, 9.0, 4.0]
+        assert asked == [one, other]
+
+    def test_keeps_an_answer_that_is_nothing(self) -> None:
+        asked = []
+
+        @kept
+        def nothing(box: Box) -> None:
+            asked.append(box)
+
+        box = Box(2.0)
+        nothing(box)
+        nothing(box)
+        assert len(asked) == 1
+
+    def test_tells_functions_of_one_value_apart(self) -> None:
+        @kept
+        def half(box: Box) -> float:
+            return box.width / 2
+
+        @kept
+        def twice(box: Box) -> float:
+            return box.width * 2
+
+        box = Box(3.0)
+        assert (half(box), twice(box), half(box)) == (1.5, 6.0, 1.5)
+
+    def test_a_changed_copy_starts_anew(self) -> None:
+        @kept
+        def double(box: Box) -> float:
+            return box.width * 2
+
+        box = Box(3.0)
+        double(box)
+        assert double(replace(box, width=5.0)) == 10.0
+        assert [field.name for field in fields(box)] == ["width"]
