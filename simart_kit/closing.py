@@ -24,7 +24,9 @@ _THIN_WALLED = 0.5  # of its hull: a capped solid below this has walls, and is n
 _LID = 0.1  # of its area that caps may have for a solid to be closed at all
 _BOARD, _SLENDERNESS = 0.01, 0.1  # [m], and of the square root of its area: what a sheet stands for at most
 _LENS = 1.5  # times the board that an open shell stands for: a hull below this is what the shell is
-_FLAT_PATCH = np.cos(np.radians(15.0))
+# Least cosine in a flat patch, the next one where there would be more boards than this.
+_FLAT_PATCHES = tuple(float(np.cos(np.radians(angle))) for angle in (15.0, 30.0, 45.0, 60.0))
+_MOST_BOARDS = 400
 _MOST_PATCHES = 64
 
 
@@ -165,9 +167,8 @@ def _rim(faces: IntArray) -> IntArray:
 def _sheet(vertices: FloatArray, faces: IntArray, middle: FloatArray) -> list[Piece]:
     """A board for each flat patch of a sheet, on the side of `middle`: outside, nothing stands out."""
     found = []
-    patch = _patches(vertices, faces)
-    for label in np.unique(patch):
-        corners = faces[patch == label]
+    for patch in _flat_patches(vertices, faces):
+        corners = faces[patch]
         normal = crosses(vertices[corners]).sum(axis=0)
         length = float(np.linalg.norm(normal))
         if length == 0:
@@ -194,7 +195,17 @@ def _board(vertices: FloatArray, faces: IntArray, step: FloatArray) -> Piece:
     return hulled(both) if body is None else piece_of(body)
 
 
-def _patches(vertices: FloatArray, faces: IntArray) -> IntArray:
+def _flat_patches(vertices: FloatArray, faces: IntArray) -> list[IntArray]:
+    """The faces of each flat patch; of a rough sheet, the less flat ones without which there are too many."""
+    for flat in _FLAT_PATCHES:
+        patch = _patches(vertices, faces, flat)
+        if int(patch.max()) < _MOST_BOARDS:
+            break
+    order = np.argsort(patch, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(patch[order])) + 1)
+
+
+def _patches(vertices: FloatArray, faces: IntArray, flat: float) -> IntArray:
     """(F,) labels of connected faces that look the same way, the largest faces first."""
     triangles = vertices[faces]
     normals, area = unit_normals(triangles), areas(triangles)
@@ -204,7 +215,7 @@ def _patches(vertices: FloatArray, faces: IntArray) -> IntArray:
         if not len(left):
             break
         lead = left[int(area[left].argmax())]
-        way[left[normals[left] @ normals[lead] >= _FLAT_PATCH]] = label
+        way[left[normals[left] @ normals[lead] >= flat]] = label
         way[lead] = label
     _, one, two = neighbours(faces)
     same = way[one] == way[two]
