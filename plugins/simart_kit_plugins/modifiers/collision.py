@@ -25,7 +25,7 @@ from simart_kit.hulls import MIN_THICKNESS, convex_hull
 from simart_kit.separation import Overlap, overlaps, separated
 
 Shapes = dict[str, Decomposition]  # by name of the part
-_MOST_FACES = 300_000  # of a part that shapes are fitted to; finer ones are coarsened first
+_MOST_FACES = 60_000  # of a part that shapes are fitted to; finer ones are coarsened first
 _KEPT = 8  # so many times less than an equal share of the work is kept for each part that comes later
 _REBATES = 1.01  # how tight shapes have to be where parts overlap
 
