@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -83,10 +83,11 @@ class Nano(Segmenter):
         still = sum(said.categories[name] for name in model.known.still)
         if spec is not None and spec.moves:
             still = 0.0
-        if still >= _STILL:
-            found = _static(mesh, seen, material)
+        fronts = self._fronts(mesh) if seen.skin and spec is None and still < _STILL else []
+        if fronts or still >= _STILL:
+            found = _of_proposals(mesh, fronts, seen, material)
         else:
-            found = (self._of_skin if seen.skin else self._of_pieces)(mesh, said, seen, material, spec)
+            found = (_of_patches if seen.skin else self._of_pieces)(mesh, said, seen, material, spec)
         assert found.face_segment is not None
         shown = evidence(found.mesh_of(mesh), found.face_segment, said, seen)
         return replace(found, notes=_notes(said, seen, still, len(found.parts) - 1), evidence=shown)
@@ -101,7 +102,7 @@ class Nano(Segmenter):
     ) -> Segmentation:
         from .honouring import chosen, rejoined
         from .pooling import pooled
-        from .proposals import of_geometry, of_network, segmentation_of, with_body
+        from .proposals import of_geometry, of_network, with_body
 
         proposals: list[Proposal] = of_network(said, said.piece_part[seen.face_piece], seen)
         if self.options.pool:
@@ -112,32 +113,23 @@ class Nano(Segmenter):
         if spec is not None:
             proposals = chosen(mesh, said, seen, proposals, spec, self.seed)
         kept = with_body(mesh, proposals)
-        found = segmentation_of(kept, len(mesh.faces), material)
-        found = found if spec is None else rejoined(mesh, found, kept, seen, spec)
-        return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
+        found = _of_proposals(mesh, kept, seen, material)
+        return found if spec is None else rejoined(mesh, found, kept, seen, spec)
 
-    def _of_skin(
-        self,
-        mesh: Mesh,
-        said: Prediction,
-        seen: MeshCloud,
-        material: Callable[[str], str],
-        spec: Spec | None,
-    ) -> Segmentation:
-        """What geometry finds on a skin; where that is nothing, or more is stated, the network's parts."""
-        from .proposals import of_geometry, segmentation_of, with_body
+    def _fronts(self, mesh: Mesh) -> list[Proposal]:
+        """What geometry finds on a skin, which is more than the network does."""
+        from .proposals import of_geometry, with_body
 
-        proposals = of_geometry(mesh, self.seed) if self.options.pool and spec is None else []
-        if not proposals:
-            return _of_patches(mesh, said, seen, material, spec)
-        found = segmentation_of(with_body(mesh, proposals), len(mesh.faces), material)
-        return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
+        return with_body(mesh, of_geometry(mesh, self.seed)) if self.options.pool else []
 
 
-def _static(mesh: Mesh, seen: MeshCloud, material: Callable[[str], str]) -> Segmentation:
+def _of_proposals(
+    mesh: Mesh, proposals: Sequence[Proposal], seen: MeshCloud, material: Callable[[str], str]
+) -> Segmentation:
+    """The body and the proposals; none of them for an object in which nothing moves."""
     from .proposals import segmentation_of
 
-    found = segmentation_of([], len(mesh.faces), material)
+    found = segmentation_of(proposals, len(mesh.faces), material)
     return replace(found, face_segment=frozen_ints(seen.face_piece.astype(np.int32)))
 
 
@@ -154,7 +146,7 @@ def _of_patches(
     said = said if spec is None else chosen_said(said, seen, spec)
     face_part = said.piece_part[seen.face_piece].astype(np.int32)
     if not said.parts:
-        return _static(mesh, seen, material)
+        return _of_proposals(mesh, [], seen, material)
     at = patch_parts(mesh, seen.middles, said.piece_part)
     done = cut(mesh, face_part, at, patch_size(mesh, seen.cloud.count))
     # The body's patches may be the middle of no face.
