@@ -42,7 +42,7 @@ def rows(title: str) -> list[list[str]]:
 
 
 def quoted(cell: str) -> list[str]:
-    return re.findall(r"`\.?(\w+)`", cell)
+    return re.findall(r"`\.?([\w-]+)`", cell)
 
 
 def test_python_block_does_what_its_comments_say(home: Path) -> None:

@@ -40,6 +40,14 @@ def register_segmenters(register: Register) -> None:
 
 
 @hookimpl
+def register_exporters(register: Register) -> None:
+    """Register `simart-json`."""
+    from .json_exporter import SimartJson
+
+    register(SimartJson)
+
+
+@hookimpl
 def diagnose() -> list[Finding]:
     """What the weights and libraries of this plugin are like."""
     from .diagnosis import findings

@@ -178,9 +178,12 @@ def object_grids(mesh: Mesh, face_part: IntArray, names: Sequence[str]) -> Objec
         raise BadInputError(f"labels {face_part.min()}..{face_part.max()} for {len(names)} parts")
     frame = object_frame(mesh)
     groups = [mesh.triangles[face_part == part] for part in range(len(names))]
-    parts = [occupancy(group, frame, f"part '{name}'") for group, name in zip(groups, names, strict=True)]
-    stacked = np.array(parts, dtype=np.bool_).reshape(-1, *(RESOLUTION,) * 3)
-    return ObjectGrids(frame, occupancy(mesh.triangles, frame), stacked)
+    grids = [occupancy(group, frame, f"part '{name}'") for group, name in zip(groups, names, strict=True)]
+    parts = np.array(grids, dtype=np.bool_).reshape(-1, *(RESOLUTION,) * 3)
+    # Where every face is of a part, the whole has the voxels of its parts and no others.
+    covered = len(grids) > 0 and face_part.min() >= 0
+    whole = np.asarray(parts.any(axis=0)) if covered else occupancy(mesh.triangles, frame)
+    return ObjectGrids(frame, whole, parts)
 
 
 def encode_parts(model: TokenModel, mesh: Mesh, face_part: IntArray, names: Sequence[str]) -> ObjectTokens:

@@ -55,4 +55,9 @@ def load_model(folder: Path | None = None) -> LoadedModel:
         grid = token_grid(model)
     except BadInputError as error:
         raise BadInputError(f"{folder}: {error}") from error
-    return LoadedModel(model, grid, file_hash(folder / WEIGHTS_FILE)[:_FINGERPRINT], folder)
+    return LoadedModel(model, grid, fingerprint(folder), folder)
+
+
+def fingerprint(folder: Path) -> str:
+    """First 16 hex digits of the SHA-256 of the weights in a model's folder."""
+    return file_hash(folder / WEIGHTS_FILE)[:_FINGERPRINT]

@@ -10,7 +10,7 @@ import numpy as np
 
 from simart_kit import Joint, Limits, Note, PartGuess
 from simart_kit.arrays import UP, Vec3, vec3
-from simart_kit.asset import JointKind, clean_name, unique_names
+from simart_kit.asset import JointKind, Material, clean_name, unique_names
 from simart_kit.errors import BadInputError
 from simart_kit.materials import MATERIALS
 from simart_kit.voxels import GridFrame
@@ -51,6 +51,7 @@ def answer_of(
     joints: Sequence[Joint],
     tokens: Sequence[VoxelTokens],
     frame: GridFrame,
+    materials: Sequence[Material | None] | None = None,
 ) -> ObjectAnswer:
     """The answer that says these parts and joints, rounded to its whole numbers (see `scales`).
 
@@ -64,17 +65,22 @@ def answer_of(
         joints: in the mesh's frame [m].
         tokens: (P,) of each part.
         frame: the object's cube, `codec.object_frame`.
+        materials: (P,) density and stiffness of each part, None where they are not said; without the list,
+            those of the rows of the material table that the parts name.
 
     Raises:
-        BadInputError: no part, a length that is none, tokens of another number than parts, or joints that
-            are no tree of these parts.
+        BadInputError: no part, a length that is none, tokens or materials of another number than parts, or
+            joints that are no tree of these parts.
     """
     if len(tokens) != len(parts):
         raise BadInputError(f"{len(tokens)} token sequences for {len(parts)} parts")
     if not (math.isfinite(longest_side) and longest_side > 0):
         raise BadInputError(f"a longest side of {longest_side} m is no length")
+    matter = materials if materials is not None else [MATERIALS.get(part.material) for part in parts]
+    if len(matter) != len(parts):
+        raise BadInputError(f"{len(matter)} materials for {len(parts)} parts")
     places = ordered(parts, joints, [len(sequence.index) for sequence in tokens])
-    told = tuple(_part(place, parts[place.part], tokens[place.part], frame) for place in places)
+    told = tuple(_part(p, parts[p.part], matter[p.part], tokens[p.part], frame) for p in places)
     return ObjectAnswer(said(name) or _NAMELESS, _rounded(longest_side * 100), told)
 
 
@@ -145,8 +151,9 @@ def material_notes(answer: ObjectAnswer) -> tuple[Note, ...]:
     return tuple(notes)
 
 
-def _part(place: Place, guess: PartGuess, tokens: VoxelTokens, frame: GridFrame) -> PartAnswer:
-    material = MATERIALS.get(guess.material)
+def _part(
+    place: Place, guess: PartGuess, material: Material | None, tokens: VoxelTokens, frame: GridFrame
+) -> PartAnswer:
     return PartAnswer(
         _part_type(place.joint),
         tokens,

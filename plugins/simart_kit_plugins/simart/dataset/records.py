@@ -15,7 +15,7 @@ from simart_kit.asset import Joint
 from ..answer.choices import said
 from ..answer.tree import ordered
 from ..answer.units import answer_of
-from ..codec import ObjectGrids, TokenModel, encode_grids, object_frame, occupancy
+from ..codec import ObjectGrids, TokenModel, encode_grids, object_grids
 from ..prompt.texts import URDF_QUESTION, described, grounding_question
 from ..tokens import VoxelTokens
 from .describing import chosen, clear_phrases
@@ -94,11 +94,8 @@ def record_of(
 
 def voxels_of(made: SourceObject) -> ObjectGrids:
     """Voxels of the whole and of each part in the object's cube of this pose; parts inside others too."""
-    frame = object_frame(made.asset.mesh)
-    named = zip(made.part_triangles, made.asset.parts, strict=True)
-    parts = np.stack([occupancy(triangles, frame, f"part '{part.name}'") for triangles, part in named])
-    # Every face is of one part, so that the whole has the voxels of its parts and no others.
-    return ObjectGrids(frame, np.asarray(parts.any(axis=0)), parts)
+    asset = made.asset
+    return object_grids(asset.mesh, asset.face_part, [part.name for part in asset.parts])
 
 
 def shape_hash(grids: ObjectGrids, names: Sequence[str]) -> int:
