@@ -30,7 +30,7 @@ def shared_certainty(cloud: Cloud, parts: Sequence[IntArray], certainty: FloatAr
     larger = np.maximum(shape[:, None], shape[None])
     apart = np.abs(shape[:, None] - shape[None]) / np.maximum(larger, 1e-9)
     # Of a thin part the thickness is mostly noise: it is compared with the part's length.
-    apart[..., :3] = np.abs(shape[:, None, :3] - shape[None, :, :3]) / larger[..., 2:3]
+    apart[..., :3] = np.abs(shape[:, None, :3] - shape[None, :, :3]) / np.maximum(larger[..., 2:3], 1e-9)
     same = (apart <= _ALIKE).all(axis=2)
     return np.asarray(same @ certainty / same.sum(axis=1))
 
