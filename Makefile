@@ -69,11 +69,12 @@ wheel: $(DEV)  ## Build a wheel from the sdist and run the tests against it in a
 	cp -r tests docs examples README.md pyproject.toml $(WHEEL)
 	cd $(WHEEL) && venv/bin/pytest $(PARALLEL)
 
-bench: $(APP)  ## Time conversions, the scoring of 100 objects, label transfer and voxelisation.
+bench: $(APP)  ## Time conversions, scoring, label transfer, voxelisation and USD against its public converter.
 	$(BIN)/python tests/bench.py
 	$(BIN)/python tests/bench_scoring.py
 	$(BIN)/python tests/bench_transfer.py
 	$(BIN)/python tests/bench_voxels.py
+	$(BIN)/python tests/bench_usd.py
 
 judges: $(DEV)  ## Ask other tools about our exports, each in its own environment (4.5 GB); JUDGES=a,b ASSETS=c,d.
 	$(JUDGE) --seeded

@@ -18,6 +18,7 @@ from .colors import Color
 from .drawing.appearance import Appearance
 from .drawing.lit_mesh import LAYERS, LitMesh
 from .drawing.pixel_rays import Frame, PixelRays
+from .kept import kept
 from .mesh import Mesh
 from .normals import with_normals
 from .rays import Rays
@@ -56,13 +57,12 @@ def render(
         caster: of the mesh's triangles, where there is one already, which saves time.
     """
     linear = LitMesh(with_normals(mesh), Frame(camera, width, height), paint, ground, caster).picture()
-    color, opacity = linear[..., :3], linear[..., 3:]
-    if background is None:
-        color, alpha = color / np.maximum(opacity, 1e-6), opacity
-    else:
-        color = color + (1 - opacity) * srgb_to_linear(np.array(background) / 255.0)
-        alpha = np.ones_like(opacity)
-    return encoded(np.concatenate([color, alpha], axis=-1))
+    shown = np.flatnonzero(linear[..., 3].ravel())
+    picture = np.full(
+        linear.shape, (0, 0, 0, 0) if background is None else (*background, 255), dtype=np.uint8
+    )
+    picture.reshape(-1, 4)[shown] = encoded(_over(linear.reshape(-1, 4).take(shown, axis=0), background))
+    return picture
 
 
 def face_ids(mesh: Mesh, camera: Camera, width: int, height: int) -> IntArray:
@@ -75,12 +75,19 @@ def face_ids(mesh: Mesh, camera: Camera, width: int, height: int) -> IntArray:
     return np.concatenate([_ids(caster, look, PixelRays.single(frame, rows)) for rows in bands])
 
 
-def isometric_view(mesh: Mesh, size: int = 252, side: Side = "left") -> ByteArray:
+def isometric_view(mesh: Mesh, size: int = 252, side: Side = "left", caster: Rays | None = None) -> ByteArray:
     """(size, size, 3) RGB picture on white along the diagonal from the front and above.
 
-    This is the input picture of SIMART (252 x 252); `side` says from which side of the front.
+    This is the input picture of SIMART (252 x 252); `side` says from which side of the front, and `caster` is
+    that of `render`.
     """
-    return render(mesh, isometric(mesh.bounds, side), size, size)[..., :3]
+    return render(mesh, isometric(mesh.bounds, side), size, size, caster=caster)[..., :3]
+
+
+@kept
+def rest_caster(asset: Asset) -> Rays:
+    """Casts rays at an asset's mesh at rest: a third of the time that a small picture of it takes."""
+    return Rays(asset.mesh.vertices, asset.mesh.faces)
 
 
 def write_preview(asset: Asset, path: Path) -> Path:
@@ -89,6 +96,15 @@ def write_preview(asset: Asset, path: Path) -> Path:
 
     path.write_bytes(preview_png(asset))
     return path
+
+
+def _over(linear: FloatArray, background: Color | None) -> FloatArray:
+    """(N, 4) linear RGBA of (N, 4) premultiplied ones before a background, or none."""
+    color, opacity = linear[:, :3], linear[:, 3:]
+    if background is None:
+        return np.concatenate([color / np.maximum(opacity, 1e-6), opacity], axis=1)
+    color = color + (1 - opacity) * srgb_to_linear(np.array(background) / 255.0)
+    return np.concatenate([color, np.ones_like(opacity)], axis=1)
 
 
 def _ids(caster: Rays, look: Appearance, rays: PixelRays) -> IntArray:

@@ -17,7 +17,7 @@ from simart_kit.kinematics import rest_to_posed
 from simart_kit.mesh import Image, Mesh, VisualMaterial
 from simart_kit.normals import with_normals
 from simart_kit.posing import PosableMesh
-from simart_kit.render import face_ids, isometric_view, render
+from simart_kit.render import face_ids, isometric_view, render, rest_caster
 from simart_kit.testing.meshes import boxes_mesh, cabinet_asset, cabinet_mesh, chain_asset
 
 UNIT_BOX = ((-0.5, -0.5, 0.0), (0.5, 0.5, 1.0))
@@ -305,6 +305,14 @@ def test_isometric_view_is_252_pixels_on_white() -> None:
     assert picture.shape == (252, 252, 3)
     assert (picture[[0, 0, -1, -1], [0, -1, 0, -1]] == 255).all()
     assert 0.2 < (picture < 250).any(axis=2).mean() < 0.8
+
+
+def test_the_caster_that_pictures_of_an_asset_share_changes_no_pixel() -> None:
+    asset = cabinet_asset()
+
+    shared = isometric_view(asset.mesh, 64, caster=rest_caster(asset))
+
+    np.testing.assert_array_equal(shared, isometric_view(asset.mesh, 64))
 
 
 def test_a_moved_door_changes_the_picture_where_the_door_goes() -> None:

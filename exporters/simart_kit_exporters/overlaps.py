@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from simart_kit.asset import Asset
+from simart_kit.kept import kept
+from simart_kit.separation import Overlap as Met
 from simart_kit.separation import overlaps, overlaps_on_the_way, rigid_bodies, still
 
 
@@ -34,9 +36,14 @@ def overlapping_parts(asset: Asset) -> dict[tuple[str, str], Overlap]:
     makes them overlap: shapes are coarser than surfaces, and would stop a door short of its limit. Pairs that
     MuJoCo never collides, such as a part and the one that it moves on where the base is free, are left out.
     """
+    return _with_rest(asset, overlaps_on_the_way(asset))
+
+
+def _with_rest(asset: Asset, on_the_way: tuple[Met, ...]) -> dict[tuple[str, str], Overlap]:
+    """Those that overlap at rest or on the way, as `overlapping_parts` says."""
     at_rest = {(o.one, o.other): o.depth for o in overlaps(asset)}
     deepest = dict(at_rest)
-    for found in overlaps_on_the_way(asset):
+    for found in on_the_way:
         pair = (found.one, found.other)
         deepest[pair] = max(found.depth, deepest.get(pair, 0.0))
     body = dict(zip((part.name for part in asset.parts), rigid_bodies(asset).tolist(), strict=True))
@@ -56,10 +63,14 @@ def _passing(asset: Asset, body: Mapping[str, int]) -> set[frozenset[int]]:
     return {frozenset((body[j.parent], body[j.child])) for j in joints if body[j.parent] != fixed}
 
 
-def overlapping_strangers(asset: Asset) -> dict[tuple[str, str], Overlap]:
+@kept
+def overlapping_strangers(asset: Asset) -> Mapping[tuple[str, str], Overlap]:
     """Those of `overlapping_parts` that no joint connects, for formats whose joints rule out contact."""
     jointed = [{j.parent, j.child} for j in asset.joints if j.kind != "free"]
-    return {pair: found for pair, found in overlapping_parts(asset).items() if set(pair) not in jointed}
+    # On its way a joint's own two rigid bodies meet, which is news only where bodies have several parts.
+    several = len(set(rigid_bodies(asset).tolist())) < len(asset.parts)
+    found = _with_rest(asset, overlaps_on_the_way(asset) if several else ())
+    return {pair: overlap for pair, overlap in found.items() if set(pair) not in jointed}
 
 
 def told(found: Mapping[tuple[str, str], Overlap]) -> tuple[str, list[str]]:

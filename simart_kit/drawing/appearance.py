@@ -30,7 +30,6 @@ class Appearance:
             None if m.base_color_image is None or mesh.uv is None else Texture(m.base_color_image)
             for m in mesh.materials
         ]
-        self._uv_density = _uv_density(mesh)
 
     @property
     def translucent(self) -> bool:
@@ -43,9 +42,9 @@ class Appearance:
         self, face: IntArray, weights: Float32Array, directions: Float32Array
     ) -> tuple[Float32Array, Float32Array]:
         """(N, 3) unit normals of the faces and (N, 3) smooth ones, both against (N, 3) ray directions."""
-        flat = self._face_normals[face]
+        flat = self._face_normals.take(face, axis=0)
         flat *= _sign(-np.einsum("ij,ij->i", flat, directions))
-        smooth = normalized(_mixed(self._normals, self._mesh.faces[face], weights))
+        smooth = normalized(_mixed(self._normals, self._mesh.faces.take(face, axis=0), weights))
         return flat, smooth * _sign(np.einsum("ij,ij->i", smooth, flat))
 
     def colors(self, face: IntArray, weights: Float32Array, footprint: Float32Array) -> Float32Array:
@@ -56,8 +55,8 @@ class Appearance:
             weights: (N, 3) barycentric weights.
             footprint: (N,) width of the surface that the point stands for [m]; textures are averaged over it.
         """
-        corners = self._mesh.faces[face]
-        material = self._mesh.face_material[face]
+        corners = self._mesh.faces.take(face, axis=0)
+        material = self._mesh.face_material.take(face)
         result = np.array([m.base_color for m in self._mesh.materials], dtype=np.float32)[material]
         if self._colors is not None:
             result *= _mixed(self._colors, corners, weights)
@@ -66,7 +65,7 @@ class Appearance:
             if texture is not None and self._uv is not None:
                 at = np.flatnonzero(material == index)
                 uv = _mixed(self._uv, corners[at], weights[at])
-                result[at] *= texture.sample(uv, footprint[at] * self._uv_density[face[at]])
+                result[at] *= texture.sample(uv, footprint[at] * _uv_density(self._mesh, face[at]))
         if self._paint is not None:
             _lay_over(result, self._paint[face])
         return result
@@ -93,9 +92,9 @@ def _lay_over(colors: Float32Array, paint: Float32Array) -> None:
 
 def _mixed(values: Float32Array, corners: IntArray, weights: Float32Array) -> Float32Array:
     """(N, K) vertex values at barycentric weights."""
-    result = values[corners[:, 0]] * weights[:, :1]
-    result += values[corners[:, 1]] * weights[:, 1:2]
-    result += values[corners[:, 2]] * weights[:, 2:]
+    result = values.take(corners[:, 0], axis=0) * weights[:, :1]
+    result += values.take(corners[:, 1], axis=0) * weights[:, 1:2]
+    result += values.take(corners[:, 2], axis=0) * weights[:, 2:]
     return result
 
 
@@ -104,13 +103,17 @@ def _sign(values: Float32Array) -> Float32Array:
     return np.asarray(np.where(values < 0, -1, 1)[:, None], dtype=np.float32)
 
 
-def _uv_density(mesh: Mesh) -> Float32Array:
-    """(F,) UV units a metre, the mean of both directions."""
-    if mesh.uv is None:
-        return np.zeros(len(mesh.faces), dtype=np.float32)
-    a, b, c = mesh.uv[mesh.faces].transpose(1, 0, 2)
+def _uv_density(mesh: Mesh, face: IntArray) -> Float32Array:
+    """(N,) UV units a metre on (N,) faces, the mean of both directions."""
+    assert mesh.uv is not None
+    once = np.zeros(len(mesh.faces), dtype=np.bool_)
+    once[face] = True
+    seen = np.flatnonzero(once)  # of a dense mesh, a small picture shows few faces
+    a, b, c = mesh.uv.take(mesh.faces.take(seen, axis=0).T, axis=0)
     twice = np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
-    return np.asarray(np.sqrt(0.5 * twice / np.maximum(mesh.face_areas, 1e-30)), dtype=np.float32)
+    result = np.zeros(len(mesh.faces), dtype=np.float32)
+    result[seen] = np.sqrt(0.5 * twice / np.maximum(mesh.face_areas.take(seen), 1e-30))
+    return result.take(face)
 
 
 def look_alike(mesh: Mesh, paint: FloatArray | None) -> IntArray:
@@ -119,13 +122,16 @@ def look_alike(mesh: Mesh, paint: FloatArray | None) -> IntArray:
     Roughly: to 4 degrees and 0.3 % of the mesh's size. Where neighbouring pixels show faces that look alike,
     the picture has no edge.
     """
-    offset = np.einsum("ij,ij->i", mesh.face_normals, mesh.triangles[:, 0]) / max(mesh.diagonal, 1e-30)
-    columns = [mesh.face_normals * 16, offset[:, None] * 300, mesh.face_material[:, None]]
-    columns += [] if paint is None else [paint * 255]
-    columns += [] if mesh.colors is None else [mesh.colors[mesh.faces[:, 0]] / 16.0]
-    keys = np.rint(np.column_stack(columns)).astype(np.int64)
-    factors = np.cumprod(np.full(keys.shape[1], 6364136223846793005, dtype=np.int64))  # Knuth's MMIX; wraps
-    return np.asarray((keys * factors).sum(axis=1))
+    first = mesh.vertices.take(mesh.faces[:, 0], axis=0)
+    offset = np.einsum("ij,ij->i", mesh.face_normals, first) / max(mesh.diagonal, 1e-30)
+    columns = [*(mesh.face_normals * 16).T, offset * 300, mesh.face_material]
+    columns += [] if paint is None else [*(paint * 255).T]
+    columns += [] if mesh.colors is None else [*(mesh.colors.take(mesh.faces[:, 0], axis=0) / 16.0).T]
+    factors = np.cumprod(np.full(len(columns), 6364136223846793005, dtype=np.int64))  # Knuth's MMIX; wraps
+    result = np.zeros(len(mesh.faces), dtype=np.int64)
+    for column, factor in zip(columns, factors, strict=True):
+        result += np.rint(column).astype(np.int64) * factor
+    return result
 
 
 def opaque_faces(mesh: Mesh) -> BoolArray:

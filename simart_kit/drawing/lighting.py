@@ -74,9 +74,8 @@ class Lighting:
             width: of the picture [pixels].
             rows: of the picture that they lie in.
         """
-        shape = (len(rows), width)
         seen = self._seen(points, width, rows)
-        seen = tile_means(seen, points.pixel, points.flat, points.position, shape, 0.01 * self.caster.size)
+        seen = tile_means(seen, points.pixel, points.flat, points.position, width, 0.01 * self.caster.size)
         upward = (0.5 + 0.5 * points.smooth[:, 2:]).astype(np.float32)
         sky = _GROUND + (_SKY - _GROUND) * upward
         facing = np.maximum(points.smooth @ self.key, 0)[:, None]
@@ -97,14 +96,15 @@ class Lighting:
         first = points.number == 0
         for k in range(_SKY_RAYS):
             # A normal plus a point of the unit sphere is distributed with the cosine.
-            on = first if k else slice(None)
-            towards = normalized(points.flat[on] * np.float32(1.001) + sphere[place[on], k])
-            seen[on, 0] += ~self.caster.blocked(start[on], towards, self.reach)
+            on = np.flatnonzero(first | (k == 0))
+            normal = points.flat.take(on, axis=0) * np.float32(1.001)
+            towards = normalized(normal + sphere[:, k].take(place.take(on), axis=0))
+            seen[on, 0] += ~self.caster.blocked(start.take(on, axis=0), towards, self.reach)
         lit = points.flat @ self.key > 0
         for k in range(_KEY_RAYS):
             on = np.flatnonzero(lit & (first | (k == 0)))
-            towards = normalized(self.key + _KEY_SPREAD * sphere[place[on], k])
-            seen[on, 1] += ~self.caster.blocked(start[on], towards)
+            towards = normalized(self.key + _KEY_SPREAD * sphere[:, k].take(place.take(on), axis=0))
+            seen[on, 1] += ~self.caster.blocked(start.take(on, axis=0), towards)
         # A pixel's second to fourth rays send one ray each: together they see as much as the first.
         seen[first] /= np.array([_SKY_RAYS, _KEY_RAYS], dtype=np.float32)
         return seen

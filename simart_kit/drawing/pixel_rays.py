@@ -60,11 +60,12 @@ class PixelRays:
         hits = caster.hits(single.origins, single.directions)
         shown = np.where(hits.face >= 0, surface[hits.face], -1).reshape(len(rows), frame.width)
         border = _borders(shown).ravel()
-        pixel = np.repeat(np.flatnonzero(border), len(SUBPIXELS))
-        number = np.tile(np.arange(len(SUBPIXELS)), int(border.sum()))
+        edges, rest = np.flatnonzero(border), np.flatnonzero(~border)
+        pixel = np.repeat(edges, len(SUBPIXELS))
+        number = np.tile(np.arange(len(SUBPIXELS)), len(edges))
         several = cls._through(frame, rows, pixel, number, SUBPIXELS[number])
         met = caster.hits(several.origins, several.directions)
-        return single.only(~border).joined(several), hits.only(~border).joined(met)
+        return single.only(rest).joined(several), hits.only(~border).joined(met)
 
     @classmethod
     def _through(
@@ -74,10 +75,11 @@ class PixelRays:
         origins, directions = frame.camera.rays(corner + within, frame.width, frame.height)
         return cls(frame, rows, pixel, number, origins.astype(np.float32), directions.astype(np.float32))
 
-    def only(self, keep: BoolArray | IntArray) -> PixelRays:
-        """Some of the rays."""
-        pixel, number = self.pixel[keep], self.number[keep]
-        return PixelRays(self.frame, self.rows, pixel, number, self.origins[keep], self.directions[keep])
+    def only(self, keep: IntArray) -> PixelRays:
+        """Some of the rays, by index."""
+        pixel, number = self.pixel.take(keep), self.number.take(keep)
+        origins, directions = (values.take(keep, axis=0) for values in (self.origins, self.directions))
+        return PixelRays(self.frame, self.rows, pixel, number, origins, directions)
 
     def joined(self, other: PixelRays) -> PixelRays:
         """The rays of both, which have the same frame and rows."""

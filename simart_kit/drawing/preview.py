@@ -17,7 +17,7 @@ from ..kinematics import opened, rest_to_posed
 from ..mesh import Mesh
 from ..posing import PosableMesh
 from ..rays import Rays
-from ..render import render
+from ..render import render, rest_caster
 from .joint_marks import Stroke, joint_strokes
 from .legend import Entry, legend, part_entries, summary
 from .pixel_rays import Frame, PixelRays
@@ -53,7 +53,7 @@ def _moving_panels(asset: Asset) -> dict[str, Image.Image]:
     marks = {name: _marks(posable, fraction) for name, fraction in _FRACTIONS.items() if fraction}
     shown = [m.vertices for m in meshes.values()]
     shown += [stroke.points for strokes in marks.values() for stroke, _ in strokes]
-    casters = {name: Rays(meshes[name].vertices, meshes[name].faces) for name in ("closed", "open")}
+    casters = {name: _caster(posable, meshes[name]) for name in ("closed", "open")}
     camera = _camera(casters["closed"], casters["open"], np.concatenate(shown))
     ground = min(float(m.bounds[0, 2]) for m in meshes.values())
     paint = _paint(asset)
@@ -67,8 +67,7 @@ def _moving_panels(asset: Asset) -> dict[str, Image.Image]:
 
 
 def _static_panels(asset: Asset) -> dict[str, Image.Image]:
-    mesh = PosableMesh.of(asset).mesh
-    caster = Rays(mesh.vertices, mesh.faces)
+    mesh, caster = PosableMesh.of(asset).mesh, rest_caster(asset)
     azimuths = {"front left": _AZIMUTHS[0], "back right": _AZIMUTHS[2]}
 
     def seen(name: str) -> Image.Image:
@@ -76,6 +75,13 @@ def _static_panels(asset: Asset) -> dict[str, Image.Image]:
         return _view(mesh, camera, float(mesh.bounds[0, 2]), None, caster)
 
     return _side_by_side(seen, azimuths)
+
+
+def _caster(posable: PosableMesh, mesh: Mesh) -> Rays:
+    """Of a posed mesh; where nothing is moved from rest, the one that other pictures of the asset use too."""
+    if np.array_equal(mesh.vertices, posable.mesh.vertices):
+        return rest_caster(posable.asset)
+    return Rays(mesh.vertices, mesh.faces)
 
 
 def _side_by_side(seen: Callable[[str], Image.Image], names: Iterable[str]) -> dict[str, Image.Image]:

@@ -43,8 +43,8 @@ def _bilinear(pixels: ByteArray, uv: Float32Array) -> Float32Array:
     columns = (left % width, (left + 1) % width)
     result = np.zeros((len(uv), 4), dtype=np.float32)
     for row, share in ((top % height * width, 1 - down), ((top + 1) % height * width, down)):
-        result += decoded(flat[row + columns[0]]) * ((1 - across) * share)
-        result += decoded(flat[row + columns[1]]) * (across * share)
+        result += decoded(flat.take(row + columns[0], axis=0)) * ((1 - across) * share)
+        result += decoded(flat.take(row + columns[1], axis=0)) * (across * share)
     return result
 
 

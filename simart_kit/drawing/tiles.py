@@ -20,7 +20,7 @@ def tile_means(
     pixel: IntArray,
     normal: Float32Array,
     position: Float32Array,
-    shape: tuple[int, int],
+    width: int,
     tolerance: float,
 ) -> Float32Array:
     """Average the values of points over the tiles around their pixels, each along its own surface only.
@@ -30,12 +30,15 @@ def tile_means(
         pixel: (N,) index of the pixel of each, row by row.
         normal: (N, 3) unit.
         position: (N, 3) [m].
-        shape: rows and columns of the picture.
+        width: of the picture [pixels].
         tolerance: how far from a pixel's plane its neighbours may lie [m].
 
     Returns:
         (N, K).
     """
+    if not len(pixel):
+        return values
+    pixel, shape = _cropped(pixel, width)
     count = shape[0] * shape[1]
     points = np.bincount(pixel, minlength=count)
 
@@ -48,7 +51,15 @@ def tile_means(
     means = [plane(c) for c in values.T]
     for sign in (1, -1):  # twice, to either side: the window is not symmetric, and one pass leaves steps
         means = _pass(means, surfaces, sign)
-    return np.stack([m.ravel()[pixel] for m in means], axis=1)
+    return np.stack([m.ravel().take(pixel) for m in means], axis=1)
+
+
+def _cropped(pixel: IntArray, width: int) -> tuple[IntArray, tuple[int, int]]:
+    """The same pixels of a picture `width` wide in the part of it that has any, and the shape of that."""
+    row, column = np.divmod(pixel, width)
+    row, column = row - row.min(), column - column.min()
+    shape = int(row.max()) + 1, int(column.max()) + 1
+    return row * shape[1] + column, shape
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,8 +31,9 @@ def principal_axes(inertia: Mat3) -> tuple[FloatArray, FloatArray]:
         tensor; of the 24 rotations that do this, one close to the identity.
     """
     moments, vectors = np.linalg.eigh(np.array(inertia))
+    size = np.abs(vectors).tolist()
     orders = [list(order) for order in permutations(range(3))]
-    order = max(orders, key=lambda columns: float(np.abs(np.diag(vectors[:, columns])).sum()))
+    order = max(orders, key=lambda columns: sum(row[c] for row, c in zip(size, columns, strict=True)))
     axes = vectors[:, order]
     # The best order has |diagonal| sum above 1, and a reflection's trace is at most 1: this is a rotation.
     return moments[order], axes * np.where(np.diag(axes) < 0, -1.0, 1.0)

@@ -1,18 +1,15 @@
-"""Meshes: what is drawn, and what collides."""
+"""Meshes: what is drawn."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from simart_kit.arrays import UP, FloatArray, IntArray, units
-from simart_kit.asset import ConvexMesh
-from simart_kit.primitives import Primitive
+from simart_kit.arrays import Float32Array, FloatArray, IntArray
 from simart_kit.surfaces import Surface
-from simart_kit.triangles import crosses
 
-from .frames import quaternion
 from .looks import linear_colors, reads_colors
 
 if TYPE_CHECKING:
@@ -30,41 +27,6 @@ def define_mesh(stage: Usd.Stage, path: Sdf.Path, vertices: FloatArray, faces: I
     mesh.CreateFaceVertexCountsAttr(Vt.IntArray.FromNumpy(np.full(len(faces), 3, dtype=np.int32)))
     mesh.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(faces.ravel()))
     mesh.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
-    return mesh
-
-
-def define_shape(stage: Usd.Stage, path: Sdf.Path, shape: ConvexMesh, origin: FloatArray) -> UsdGeom.Gprim:
-    """Author a collision shape of a body at `origin` (3,) [m], as the primitive that it is if it is one."""
-    if shape.primitive:
-        return define_primitive(stage, path, shape.primitive, origin)
-    return define_hull(stage, path, shape, origin)
-
-
-def define_primitive(stage: Usd.Stage, path: Sdf.Path, shape: Primitive, origin: FloatArray) -> UsdGeom.Gprim:
-    """Author a box, cylinder or sphere of a body at `origin` (3,) [m]; renderers leave it out."""
-    from pxr import Gf, Usd, UsdGeom
-
-    gprim = _solid(stage, path, shape)
-    gprim.CreateExtentAttr(UsdGeom.Boundable.ComputeExtentFromPlugins(gprim, Usd.TimeCode.Default()))
-    gprim.CreatePurposeAttr(UsdGeom.Tokens.guide)
-    gprim.AddTranslateOp().Set(Gf.Vec3d(*(shape.asset_T_shape[:3, 3] - origin).tolist()))
-    gprim.AddOrientOp().Set(quaternion(shape.asset_T_shape[:3, :3]))
-    if shape.kind == "box":
-        gprim.AddScaleOp().Set(Gf.Vec3f(*shape.size))
-    return gprim
-
-
-def define_hull(stage: Usd.Stage, path: Sdf.Path, shape: ConvexMesh, origin: FloatArray) -> UsdGeom.Mesh:
-    """Author a collision shape of a body at `origin` (3,) [m]; renderers leave it out."""
-    from pxr import UsdGeom, Vt
-
-    vertices = shape.vertices - origin
-    mesh = define_mesh(stage, path, vertices, shape.faces)
-    mesh.CreatePurposeAttr(UsdGeom.Tokens.guide)
-    # A normal a face: viewers that do show guides then show flat sides.
-    normals = units(crosses(vertices[shape.faces]), otherwise=UP)
-    mesh.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(normals.astype(np.float32)))
-    mesh.SetNormalsInterpolation(UsdGeom.Tokens.uniform)
     return mesh
 
 
@@ -91,9 +53,7 @@ def _set_a_vertex(primvar: UsdGeom.Primvar, values: FloatArray) -> None:
 
     rows = np.ascontiguousarray(values, dtype=np.float32) + np.float32(0.0)  # no -0.0, which equals 0.0
     array = {1: Vt.FloatArray, 2: Vt.Vec2fArray, 3: Vt.Vec3fArray}[rows.shape[1]]
-    _, first, index = np.unique(
-        rows.view(f"V{rows.strides[0]}").ravel(), return_index=True, return_inverse=True
-    )
+    _, first, index = np.unique(_keys(rows), return_index=True, return_inverse=True)
     primvar.SetInterpolation(UsdGeom.Tokens.vertex)
     if len(first) < len(rows):
         rows = rows[first]
@@ -101,20 +61,8 @@ def _set_a_vertex(primvar: UsdGeom.Primvar, values: FloatArray) -> None:
     primvar.Set(array.FromNumpy(rows.squeeze(1) if rows.shape[1] == 1 else rows))
 
 
-def _solid(stage: Usd.Stage, path: Sdf.Path, shape: Primitive) -> UsdGeom.Gprim:
-    """The prim of a primitive, about its own middle; a box is a cube of 1 m that waits for its scale."""
-    from pxr import UsdGeom
-
-    if shape.kind == "box":
-        cube = UsdGeom.Cube.Define(stage, path)
-        cube.CreateSizeAttr(1.0)
-        return cube
-    if shape.kind == "sphere":
-        sphere = UsdGeom.Sphere.Define(stage, path)
-        sphere.CreateRadiusAttr(shape.size[0] / 2)
-        return sphere
-    cylinder = UsdGeom.Cylinder.Define(stage, path)
-    cylinder.CreateAxisAttr(UsdGeom.Tokens.z)
-    cylinder.CreateRadiusAttr(shape.size[0] / 2)
-    cylinder.CreateHeightAttr(shape.size[2])
-    return cylinder
+def _keys(rows: Float32Array) -> NDArray[Any]:
+    """(V,) values that sort as the bytes of (V, N) rows; whole numbers where they fit, which sort faster."""
+    size = rows.strides[0]
+    keys = rows.view(f">u{size}" if size in (4, 8) else f"V{size}").ravel()
+    return keys.astype(np.uint64) if size in (4, 8) else keys

@@ -7,7 +7,7 @@ from pathlib import Path
 from simart_kit.asset import Asset
 from simart_kit.asset_io import ASSET_FILE
 from simart_kit.mesh import Image
-from simart_kit.render import isometric_view
+from simart_kit.render import isometric_view, rest_caster
 
 from .semantics import category
 
@@ -28,7 +28,8 @@ def write_thumbnail(asset: Asset, file: Path) -> None:
     """Write the picture of a USD file into the hidden folder beside it that browsers of assets read."""
     path = file.parent / ".thumbs" / f"{_THUMBNAIL}x{_THUMBNAIL}" / f"{file.name}.png"
     path.parent.mkdir(parents=True)
-    path.write_bytes(Image.from_pixels(isometric_view(asset.mesh, _THUMBNAIL)).png)
+    pixels = isometric_view(asset.mesh, _THUMBNAIL, caster=rest_caster(asset))
+    path.write_bytes(Image.from_pixels(pixels).png)
 
 
 def _fields(asset: Asset, author: str, license_: str) -> dict[str, object]:

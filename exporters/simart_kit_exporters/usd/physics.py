@@ -1,4 +1,4 @@
-"""Rigid bodies: mass properties, colliders, and the materials that they slide on."""
+"""Rigid bodies: mass properties, and the materials that they slide on."""
 
 from __future__ import annotations
 
@@ -37,18 +37,6 @@ def make_body(frame: UsdGeom.Xform, mass: MassProperties | None, origin: FloatAr
     api.CreateCenterOfMassAttr(Gf.Vec3f(*(np.array(mass.center) - origin).tolist()))
     api.CreateDiagonalInertiaAttr(Gf.Vec3f(*moments.tolist()))
     api.CreatePrincipalAxesAttr(quaternion(axes))
-
-
-def make_collider(gprim: UsdGeom.Gprim, surface: UsdShade.Material) -> None:
-    """Make a convex mesh or a primitive collide, and slide as its physics material says."""
-    from pxr import UsdGeom, UsdPhysics, UsdShade
-
-    prim = gprim.GetPrim()
-    UsdPhysics.CollisionAPI.Apply(prim)
-    if prim.IsA(UsdGeom.Mesh):
-        hull = UsdPhysics.MeshCollisionAPI.Apply(prim)
-        hull.CreateApproximationAttr(UsdPhysics.Tokens.convexHull)
-    UsdShade.MaterialBindingAPI.Apply(prim).Bind(surface, materialPurpose="physics")
 
 
 def define_physics_material(stage: Usd.Stage, path: Sdf.Path, material: Material) -> UsdShade.Material:

@@ -13,7 +13,15 @@ from typing import TYPE_CHECKING
 from simart_kit.asset import Joint
 
 if TYPE_CHECKING:
-    from pxr import Usd, UsdGeom
+    from pxr import Usd
+
+    from .draft import Role
+
+RUNTIME_SCHEMAS: dict[Role, tuple[str, str]] = {
+    "newton": ("NewtonCollisionAPI", "NewtonMeshCollisionAPI"),
+    "mujoco": ("MjcCollisionAPI", "MjcMeshCollisionAPI"),
+}
+"""What says that a collider is one of a simulator's, and that a mesh is; settings keep their defaults."""
 
 
 def set_newton(prim: Usd.Prim, joint: Joint) -> None:
@@ -44,21 +52,3 @@ def set_mujoco(prim: Usd.Prim, joint: Joint) -> None:
             name, Sdf.ValueTypeNames.Double, custom=False, variability=Sdf.VariabilityUniform
         )
         attribute.Set(value)
-
-
-def mark_newton(gprim: UsdGeom.Gprim) -> None:
-    """Say that a collider is one of Newton's; its settings keep their defaults."""
-    _mark(gprim, "NewtonCollisionAPI", "NewtonMeshCollisionAPI")
-
-
-def mark_mujoco(gprim: UsdGeom.Gprim) -> None:
-    """Say that a collider is one of MuJoCo's; its settings keep their defaults."""
-    _mark(gprim, "MjcCollisionAPI", "MjcMeshCollisionAPI")
-
-
-def _mark(gprim: UsdGeom.Gprim, schema: str, mesh_schema: str) -> None:
-    from pxr import UsdGeom
-
-    gprim.GetPrim().AddAppliedSchema(schema)
-    if gprim.GetPrim().IsA(UsdGeom.Mesh):
-        gprim.GetPrim().AddAppliedSchema(mesh_schema)

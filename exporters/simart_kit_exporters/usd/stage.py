@@ -11,13 +11,14 @@ from simart_kit.mesh import VisualMaterial
 from simart_kit.surfaces import Surface, asset_surfaces
 
 from ..overlaps import overlapping_strangers
+from .colliders import define_colliders
 from .draft import Draft
-from .geometry import define_shape, define_surface
+from .geometry import define_surface
 from .joints import define_fixed_base, define_joint
 from .looks import by_material
 from .materials import define_look
-from .physics import define_frame, define_physics_material, filter_contact, make_body, make_collider
-from .runtimes import mark_mujoco, mark_newton, set_mujoco, set_newton
+from .physics import define_frame, define_physics_material, filter_contact, make_body
+from .runtimes import set_mujoco, set_newton
 from .semantics import category, label
 
 if TYPE_CHECKING:
@@ -79,15 +80,7 @@ def _define_part(draft: Draft, asset: Asset, part: Part, slides: Slides) -> None
     label(frame.GetPrim(), "class", part.label or part.name)
     with draft.writing("physics"):
         make_body(frame, part.mass, origin)
-    for number, shape in enumerate(part.collision, 1):
-        with draft.writing("geometries"):
-            gprim = define_shape(stage, path.AppendChild(f"collision_{number}"), shape, origin)
-        with draft.writing("physics"):
-            make_collider(gprim, slides[part.material])
-        with draft.writing("newton"):
-            mark_newton(gprim)
-        with draft.writing("mujoco"):
-            mark_mujoco(gprim)
+    define_colliders(draft, path, part, slides[part.material].GetPath(), origin)
 
 
 def _define_surfaces(draft: Draft, part: Part, surfaces: tuple[Surface, ...], looks: Looks) -> None:
