@@ -18,7 +18,8 @@ PARALLEL := -n auto --dist worksteal
 
 JUDGE := PYTHONPATH=tests $(BIN)/python -m judges --judges "$(JUDGES)" --assets "$(ASSETS)"
 
-.PHONY: help demo test coverage slow check lint types docs docs-check fmt wheel bench judges judges-light browser clean
+.PHONY: help demo test coverage slow check lint types docs docs-check fmt wheel bench real-objects judges judges-light \
+	browser clean
 .DEFAULT_GOAL := help
 
 help:  ## List the targets.
@@ -75,6 +76,9 @@ bench: $(APP)  ## Time conversions, scoring, label transfer, voxelisation and US
 	$(BIN)/python tests/bench_transfer.py
 	$(BIN)/python tests/bench_voxels.py
 	$(BIN)/python tests/bench_usd.py
+
+real-objects: $(APP)  ## Make real objects with ground truth of public packages (560 MB to download); OUT=folder.
+	$(BIN)/python -m tests.public_objects $(or $(OUT),out/real-objects)
 
 judges: $(DEV)  ## Ask other tools about our exports, each in its own environment (4.5 GB); JUDGES=a,b ASSETS=c,d.
 	$(JUDGE) --seeded

@@ -1,0 +1,1 @@
+"""Real articulated objects with ground truth, made from what public packages hold; see __main__.py."""
