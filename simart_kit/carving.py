@@ -63,9 +63,9 @@ def carved(shape: ConvexMesh, other: ConvexMesh, clearance: float = CLEARANCE) -
     around = _around(shape, normals, ends + clearance)
     single = _single(shape, normals, ends + clearance)
     if single is not None and volume(single) > _MOSTLY * _volume(around):
-        return (single,)
+        return (_fitted(single),)
     least = _SLIVER * volume(shape)
-    return tuple(piece for piece in around if volume(piece) > least)
+    return tuple(_fitted(piece) for piece in around if volume(piece) > least)
 
 
 def _single(shape: ConvexMesh, normals: FloatArray, ends: FloatArray) -> ConvexMesh | None:
@@ -145,6 +145,9 @@ def _half(shape: ConvexMesh, axis: FloatArray, end: float) -> ConvexMesh | None:
     share = (height[low] / (height[low] - height[high]))[:, None]
     cut = shape.vertices[low] + share * (shape.vertices[high] - shape.vertices[low])
     hull = hull_of(np.concatenate([shape.vertices[height <= 0], cut]))
-    if hull is None or float(np.ptp(hull.vertices @ axis)) < _THIN:
-        return None
-    return fitted(hull.vertices, volume(hull), _EXACT) or hull
+    return None if hull is None or float(np.ptp(hull.vertices @ axis)) < _THIN else hull
+
+
+def _fitted(piece: ConvexMesh) -> ConvexMesh:
+    """A piece as the primitive that it is, or as it is."""
+    return piece if piece.primitive else fitted(piece.vertices, volume(piece), _EXACT) or piece

@@ -86,6 +86,14 @@ def gap(one: Convex, other: Convex) -> tuple[float, FloatArray]:
     return edged if edged[0] > found[0] + 1e-9 else found  # faces win ties: shapes are cut along them
 
 
+def gap_across(one: Convex, other: Convex, way: FloatArray) -> tuple[float, FloatArray]:
+    """How far two shapes pass each other by [m], if one moves along a (3,) unit way, and the axis there."""
+    across = np.cross(np.concatenate([one.edges, other.edges]), way)
+    size = np.linalg.norm(across, axis=1)
+    axes = across[size > 1e-6] / size[size > 1e-6, None]
+    return _widest(one, other, _lines(axes))
+
+
 def _widest(one: Convex, other: Convex, axes: FloatArray) -> tuple[float, FloatArray]:
     lower, upper = one.extent(axes)
     other_lower, other_upper = other.extent(axes)

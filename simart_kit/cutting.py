@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .arrays import FloatArray
-from .closing import Piece, piece_of
+from .pieces import Piece, piece_of
 from .topology import neighbours
 from .triangles import unit_normals
 

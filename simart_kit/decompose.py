@@ -11,13 +11,14 @@ import numpy as np
 
 from .arrays import FloatArray, IntArray
 from .asset import ConvexMesh
-from .closing import Piece, hulled, pieces_of
+from .closing import pieces_of
 from .convex_decomposition import DecompositionError, Tool, run_tool
 from .cutting import WORK, cut, cut_tight, is_loose
 from .fitting import fitted
 from .grouping import grouped
 from .hulls import convex_hull, hull_of
 from .mending import mended
+from .pieces import Piece, hulled
 from .shells import find_shells
 from .straightening import straightened
 from .triangles import unit_normals

@@ -9,6 +9,7 @@ from .asset import ConvexMesh
 from .farthest import farthest
 
 MIN_THICKNESS = 0.002  # [m] of the hull of something flat
+_FLAT = 1e-12  # of the cube of its size: what a hull holds at least
 _MANY_POINTS, _MANY_DIRECTIONS = 20_000, 1024
 _GOLDEN_ANGLE = np.pi * (3.0 - np.sqrt(5.0))
 
@@ -34,6 +35,21 @@ def hull_of(points: FloatArray) -> ConvexMesh | None:
     return ConvexMesh(vertices, np.where(inward[:, None], corners[:, ::-1], corners))
 
 
+def hull_corners(points: FloatArray) -> tuple[FloatArray, float] | None:
+    """(C, 3) corners and the volume [m^3] of the hull of (N, 3) points; None when they lie in a plane.
+
+    What is asked for again and again, of which nobody wants the faces; many times as fast as `hull_of`.
+    """
+    import manifold3d
+
+    body = manifold3d.Manifold.hull_points(points)
+    found = float(body.volume())
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    if found <= _FLAT * size**3:
+        return None
+    return np.asarray(body.to_mesh64().vert_properties[:, :3]), found
+
+
 def convex_hull(points: FloatArray, max_vertices: int = 64, thickness: float = MIN_THICKNESS) -> ConvexMesh:
     """A convex shape around (N, 3) points, for simulators.
 
@@ -57,13 +73,18 @@ def volume(shape: ConvexMesh) -> float:
     return float(np.einsum("ni,ni->", a, np.cross(b, c)) / 6)
 
 
-def _farthest(points: FloatArray, count: int) -> IntArray:
-    """Indices of the farthest points along the six axes and over a Fibonacci sphere, `count` at most."""
-    step = np.arange(count - 6) + 0.5
-    z = 1 - 2 * step / (count - 6)
+def sphere_directions(count: int) -> FloatArray:
+    """(N, 3) unit directions evenly over a sphere: a Fibonacci spiral."""
+    step = np.arange(count) + 0.5
+    z = 1 - 2 * step / count
     ring = np.sqrt(1 - z**2)
     turn = _GOLDEN_ANGLE * step
-    sphere = np.column_stack([ring * np.cos(turn), ring * np.sin(turn), z])
+    return np.column_stack([ring * np.cos(turn), ring * np.sin(turn), z])
+
+
+def _farthest(points: FloatArray, count: int) -> IntArray:
+    """Indices of the farthest points along the six axes and over a Fibonacci sphere, `count` at most."""
+    sphere = sphere_directions(count - 6)
     directions = np.concatenate([np.eye(3), -np.eye(3), sphere])
     return np.unique(farthest(points, directions))
 

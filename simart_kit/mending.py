@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from .closing import Piece
-from .hulls import hull_of, volume
+from .hulls import hull_corners
+from .pieces import Piece
 
 _TOUCHING = 1e-6  # [m]
 _NEAR = 4  # pieces that each may be joined with where there are too many, besides those that it touches
@@ -60,8 +60,8 @@ def _joins(pieces: Mapping[int, Piece], key: int, near: int) -> dict[tuple[int, 
 
 def _together(one: Piece, two: Piece) -> Piece:
     points = np.concatenate([one.points, two.points])
-    hull = hull_of(points)
-    total = one.volume + two.volume
+    hull, total = hull_corners(points), one.volume + two.volume
     if hull is None:
         return Piece(points, total, total, None)
-    return Piece(hull.vertices, min(total, volume(hull)), volume(hull), None)
+    corners, size = hull
+    return Piece(corners, min(total, size), size, None)

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from .arrays import FloatArray, IntArray
-from .closing import Piece
-from .hulls import hull_of, volume
+from .hulls import hull_corners
+from .pieces import Piece
 from .triangles import areas
 
 _SPARSE = 10.0  # times its solid: what the hull of bent rods holds at least; that of a carcass holds less
@@ -40,8 +40,13 @@ def _runs(piece: Piece, few: int) -> list[Piece]:
     vertices, faces = np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts).astype(np.int64)
     triangles = vertices[faces]
     depth = piece.volume / float(areas(triangles).sum())
-    found = _parted(triangles, depth, _MOST_HALVINGS)
+    found = straight_runs(triangles, depth)
     return found if sum(run.hull_volume for run in found) <= _STRAIGHT * piece.volume else [piece]
+
+
+def straight_runs(triangles: FloatArray, depth: float) -> list[Piece]:
+    """Hulls around the straight runs of (F, 3, 3) triangles with so much solid behind them [m]."""
+    return _parted(triangles, depth, _MOST_HALVINGS)
 
 
 def _parted(triangles: FloatArray, depth: float, halvings: int) -> list[Piece]:
@@ -54,9 +59,8 @@ def _parted(triangles: FloatArray, depth: float, halvings: int) -> list[Piece]:
     """
     solid = depth * float(areas(triangles).sum())
     points = triangles.reshape(-1, 3)
-    hull = hull_of(points)
-    size = volume(hull) if hull else solid
-    whole = [Piece(hull.vertices if hull else points, min(solid, size), size, None)]
+    corners, size = hull_corners(points) or (points, solid)
+    whole = [Piece(corners, min(solid, size), size, None)]
     if size <= _STRAIGHT * solid or not halvings or len(triangles) < 2:
         return whole
     found = [

@@ -9,9 +9,10 @@ import trimesh
 
 from simart_kit.arrays import FloatArray, IntArray
 from simart_kit.asset import ConvexMesh
-from simart_kit.closing import SHEET
 from simart_kit.decompose import Budget, decompose
 from simart_kit.hulls import volume
+from simart_kit.pieces import simpler
+from simart_kit.sheets import SHEET
 from simart_kit.testing.meshes import box, boxes_mesh
 
 from .furniture import carcass, drawer
@@ -85,6 +86,17 @@ class TestOneShell:
         (shape,) = found.shapes
         assert volume(shape) == pytest.approx(0.6 * 0.4 * 0.7)
         assert "took longer" in found.problem
+
+
+def test_a_solid_of_many_faces_keeps_its_place_with_fewer() -> None:
+    fine = manifold3d.Manifold.cube((0.6, 0.4, 0.7)).refine(24)
+    shaken = np.random.default_rng(0).uniform(-1e-4, 1e-4, (fine.num_vert(), 3))
+    rough = fine.warp_batch(lambda points: points + shaken)
+    found = simpler(rough)
+    assert found.num_tri() < rough.num_tri() / 3
+    assert found.volume() == pytest.approx(0.6 * 0.4 * 0.7, rel=0.01)
+    np.testing.assert_allclose(found.bounding_box(), [0, 0, 0, 0.6, 0.4, 0.7], atol=0.002)
+    assert simpler(found).num_tri() <= found.num_tri()
 
 
 class TestOpenSurfaces:

@@ -8,9 +8,9 @@ import pytest
 import trimesh
 
 from simart_kit.arrays import BoolArray, FloatArray
-from simart_kit.closing import Piece, piece_of
 from simart_kit.decompose import Budget, decompose
 from simart_kit.hulls import hull_of
+from simart_kit.pieces import Piece, piece_of
 from simart_kit.straightening import straightened
 from simart_kit.triangles import unit_normals
 

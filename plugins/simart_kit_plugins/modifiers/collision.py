@@ -17,6 +17,7 @@ from simart_kit.coarsening import coarsened
 from simart_kit.convex_decomposition import lacks
 from simart_kit.cutting import WORK
 from simart_kit.decompose import Budget, Decomposition, decompose, decompose_by_tool
+from simart_kit.easing import eased
 from simart_kit.findings import Finding, library
 from simart_kit.fitting import aligned_box
 from simart_kit.hinge_relief import relieved
@@ -82,6 +83,7 @@ class Collision(sk.Modifier):
         if found and options.margin and options.mode in ("auto", "decompose"):
             done = carved_apart(done)
             found = overlaps(done)
+        done = eased(done) if options.margin and options.mode in ("auto", "decompose") else done
         done, freed = relieved(done) if options.margin and options.mode != "box" else (done, ())
         problems = [f"{name} has looser shapes: {m.problem}" for name, m in made.items() if m.problem]
         done = done.with_notes(

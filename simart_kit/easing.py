@@ -1,0 +1,122 @@
+"""Collision shapes that let parts begin to move: what interlocks with a neighbour's gives way.
+
+Shapes of neighbours that are apart at rest may still be in each other's way, where the surface between them
+winds or the shapes are coarser. Solvers do not slide over that: a drawer stays shut.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+import numpy as np
+
+from .arrays import FloatArray
+from .asset import Asset, ConvexMesh, Joint
+from .clipping import extent, pulled_in
+from .convex_overlap import Convex, gap, gap_across
+from .kinematics import carried, joint_motion, span
+from .separation import CLEARANCE, TOLERANCE, overlaps_on_the_way, replaced, rigid_bodies
+
+_STEPS = 0.0005 * 2.0 ** np.arange(8)  # [m] that a part has moved at its farthest
+_MOST_OF_SHAPE = 0.25  # of its extent that a shape may lose at once
+_MOST = 0.005  # of the object's diagonal that it may: overlaps up to this count as touching elsewhere
+
+Shapes = dict[str, list[Convex]]  # by name of the part
+
+
+def eased(asset: Asset) -> Asset:
+    """The asset with shapes that begin their joint's way without those of neighbours, which give way as much.
+
+    Pairs that exporters exclude, as they meet on the way however that begins, stay as they are.
+
+    Args:
+        asset: with collision shapes that are apart at rest.
+    """
+    shapes: Shapes = {part.name: [Convex(shape) for shape in part.collision] for part in asset.parts}
+    excluded = {frozenset((pair.one, pair.other)) for pair in overlaps_on_the_way(asset)}
+    for joint in asset.joints:
+        if joint.kind in ("revolute", "continuous", "prismatic") and span(joint) != (0.0, 0.0):
+            _ease(shapes, joint, _others(asset, joint, excluded), _MOST * asset.mesh.diagonal)
+    changed = {
+        part.name: tuple(one.shape for one in shapes[part.name])
+        for part in asset.parts
+        if any(one.shape is not shape for one, shape in zip(shapes[part.name], part.collision, strict=True))
+    }
+    return replaced(asset, changed) if changed else asset
+
+
+def _ease(shapes: Shapes, joint: Joint, others: Mapping[str, Sequence[str]], most: float) -> None:
+    """Change shapes that a joint moves, and of other parts those that these begin their way in."""
+    for position in _positions(joint, [one for name in others for one in shapes[name]]):
+        posed_T_rest = _motion(joint, position)
+        for name, i in [(part, i) for part in others for i in range(len(shapes[part]))]:
+            moved = Convex(_moved(shapes[name][i].shape, posed_T_rest))
+            for other, k in [(part, k) for part in others[name] for k in _met(moved, shapes[part])]:
+                pulls = _pulls(joint, position, moved, shapes[other][k], most)
+                if pulls is not None:
+                    axis, mine, its = pulls
+                    own = pulled_in(shapes[name][i].shape, axis @ posed_T_rest[:3, :3], mine)
+                    shapes[name][i], moved = Convex(own), Convex(_moved(own, posed_T_rest))
+                    shapes[other][k] = Convex(pulled_in(shapes[other][k].shape, -axis, its))
+
+
+def _others(asset: Asset, joint: Joint, excluded: Collection[frozenset[str]]) -> dict[str, list[str]]:
+    """For each part that a joint moves, those that it does not move and that its way is not excluded with."""
+    bodies = rigid_bodies(asset)
+    mine = [part.name for part in asset.parts if part.name in carried(asset, joint.child)]
+    moved = {int(bodies[asset.part_index(name)]) for name in mine}
+    still = [part.name for part, body in zip(asset.parts, bodies, strict=True) if int(body) not in moved]
+    return {name: [other for other in still if frozenset((name, other)) not in excluded] for name in mine}
+
+
+def _positions(joint: Joint, own: Sequence[Convex]) -> list[float]:
+    """Of a joint that moves shapes [rad | m]: the first steps to both sides, within its limits."""
+    points = np.concatenate([one.shape.vertices for one in own]) - np.array(joint.origin)
+    reach = (
+        float(np.linalg.norm(np.cross(points, np.array(joint.axis)), axis=1).max()) if joint.turns else 1.0
+    )
+    lower, upper = span(joint)
+    steps = [float(step) for step in _STEPS / max(reach, 1e-6)]
+    return [step for step in steps if step <= upper] + [-step for step in steps if -step >= lower]
+
+
+def _met(moved: Convex, others: Sequence[Convex]) -> list[int]:
+    """Indices of the shapes that one stands in."""
+    apart = [np.maximum(moved.bounds[0] - o.bounds[1], o.bounds[0] - moved.bounds[1]).max() for o in others]
+    near = [k for k, distance in enumerate(apart) if distance < 0]
+    return [k for k in near if gap(moved, others[k])[0] < -TOLERANCE]
+
+
+def _pulls(
+    joint: Joint, position: float, moved: Convex, other: Convex, most: float
+) -> tuple[FloatArray, float, float] | None:
+    """The axis across the way along which two shapes give way, and how far each; None where it is too far."""
+    way = _way(joint, position, moved, other)
+    apart, axis = gap_across(moved, other, way)
+    lacking = CLEARANCE - apart
+    limits = [min(most, _MOST_OF_SHAPE * extent(one.shape, axis)) for one in (moved, other)]
+    if lacking <= 0 or lacking > sum(limits):
+        return None
+    mine = min(max(lacking / 2, lacking - limits[1]), limits[0])
+    return axis, mine, lacking - mine
+
+
+def _way(joint: Joint, position: float, moved: Convex, other: Convex) -> FloatArray:
+    """(3,) unit way that a joint moves the middle of what two shapes share."""
+    axis = np.array(joint.axis)
+    if joint.turns:
+        lower = np.maximum(moved.bounds[0], other.bounds[0])
+        upper = np.minimum(moved.bounds[1], other.bounds[1])
+        axis = np.cross(axis, (lower + upper) / 2 - np.array(joint.origin))
+    return np.asarray(np.sign(position) * axis / max(float(np.linalg.norm(axis)), 1e-12))
+
+
+def _motion(joint: Joint, position: float) -> FloatArray:
+    """(4, 4) motion of what a joint moves, in the asset's frame."""
+    motion, origin = joint_motion(joint, position), np.array(joint.origin)
+    motion[:3, 3] += origin - motion[:3, :3] @ origin
+    return motion
+
+
+def _moved(shape: ConvexMesh, matrix: FloatArray) -> ConvexMesh:
+    return ConvexMesh(shape.vertices @ matrix[:3, :3].T + matrix[:3, 3], shape.faces)

@@ -1,0 +1,91 @@
+"""Solids that convex shapes are to stand for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .arrays import FloatArray, IntArray
+from .hulls import convex_hull, volume
+from .topology import without_gaps
+
+if TYPE_CHECKING:
+    from manifold3d import Manifold
+
+_MANY_FACES = 5000
+_TOLERANCES = 0.0005, 0.001, 0.002  # of a solid's diagonal: how far its surface may move
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A solid to be stood for by convex shapes.
+
+    Attributes:
+        points: (N, 3) that its convex hull is around [m].
+        volume: of the solid [m^3].
+        hull_volume: of the hull [m^3].
+        body: the solid itself; None where it is taken for its hull.
+    """
+
+    points: FloatArray
+    volume: float
+    hull_volume: float
+    body: Manifold | None
+
+    @property
+    def excess(self) -> float:
+        """What the hull holds besides the solid [m^3]."""
+        return self.hull_volume - self.volume
+
+    @cached_property
+    def lower(self) -> FloatArray:
+        """(3,) lowest coordinates [m]."""
+        return np.asarray(self.points.min(axis=0))
+
+    @cached_property
+    def upper(self) -> FloatArray:
+        """(3,) highest coordinates [m]."""
+        return np.asarray(self.points.max(axis=0))
+
+
+def piece_of(body: Manifold) -> Piece:
+    """The piece of a solid."""
+    hull = body.hull()
+    return Piece(np.asarray(hull.to_mesh64().vert_properties[:, :3]), body.volume(), hull.volume(), body)
+
+
+def hulled(points: FloatArray) -> Piece:
+    """The piece that fills the hull of (N, 3) points."""
+    shape = convex_hull(points, max(len(points), 8))
+    return Piece(points, volume(shape), volume(shape), None)
+
+
+def solid_body(vertices: FloatArray, faces: IntArray) -> Manifold | None:
+    """The solid within closed (F, 3) faces, whichever way they are wound; None when there is none."""
+    import manifold3d
+
+    used, corners = without_gaps(faces)
+    for wound in (corners, corners[:, ::-1]):
+        mesh = manifold3d.Mesh64(np.ascontiguousarray(vertices[used]), wound.astype(np.uint64))
+        body = manifold3d.Manifold(mesh)
+        if body.status() != manifold3d.Error.NoError:
+            return None
+        if body.volume() > 0:
+            return body
+    return None
+
+
+def simpler(body: Manifold) -> Manifold:
+    """A solid of many faces with fewer, its surface moved by little: what cutting costs is counted in faces.
+
+    Tolerances grow only while there are still many: what is flat or finely curved stays all but exact.
+    """
+    size = float(np.linalg.norm(np.subtract(body.bounding_box()[3:], body.bounding_box()[:3])))
+    for tolerance in _TOLERANCES:
+        if body.num_tri() <= _MANY_FACES:
+            break
+        body = body.simplify(tolerance * size)
+    return body
