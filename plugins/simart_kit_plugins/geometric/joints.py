@@ -72,13 +72,11 @@ def joints_of(
 
 
 def _choose(scene: Scene, view: View, label: str, around: Surroundings) -> Choice:
-    if says(label, SPINNING):
-        points = scene.triangles[scene.labels == view.part].reshape(-1, 3)
-        axis = round_axis(points)
-        if axis is not None:
-            direction = view.axes @ np.eye(3)[axis]
-            middle = view.axes @ ((points.max(axis=0) + points.min(axis=0)) / 2)
-            return spin(direction, middle), 0.7, (f"labelled '{label}'", "round about this axis")
+    for words, special in _SPECIAL:
+        chosen = special(scene, view) if says(label, words) else None
+        if chosen is not None:
+            candidate, confidence, reasons = chosen
+            return candidate, confidence, (f"labelled '{label}'", *reasons)
     sliding, hinged = slide_score(view, label), hinge_score(view, label)
     if sliding.value > hinged.value:
         return slide(view), _confidence(sliding.value - hinged.value), sliding.reasons
@@ -87,6 +85,22 @@ def _choose(scene: Scene, view: View, label: str, around: Surroundings) -> Choic
     (best, hinge), (second, _) = scored[0], scored[1]
     margin = min(best.value - second.value, hinged.value - sliding.value)
     return _deep_enough(scene, view, hinge), _confidence(margin), hinged.reasons + best.reasons
+
+
+def _spinning(scene: Scene, view: View) -> Choice | None:
+    """About the axis of something round."""
+    points = scene.triangles[scene.labels == view.part].reshape(-1, 3)
+    axis = round_axis(points)
+    if axis is None:
+        return None
+    middle = view.axes @ ((points.max(axis=0) + points.min(axis=0)) / 2)
+    return spin(view.axes[:, axis], middle), 0.7, ("round about this axis",)
+
+
+# What is said of parts that are called so; of none where the shape does not bear it out.
+_SPECIAL: tuple[tuple[tuple[str, ...], Callable[[Scene, View], Choice | None]], ...] = (
+    (SPINNING, _spinning),
+)
 
 
 def _joint(

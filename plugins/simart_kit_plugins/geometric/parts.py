@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Set
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,6 +22,12 @@ if TYPE_CHECKING:
     from simart_kit.spec.values import Spec
 
 _MOST_PIECES = 600
+
+Finder = Callable[[Scene, Contacts, Set[int]], list[Mover]]
+"""Finds movers among the pieces that are not taken yet."""
+
+# After the fronts; each has what those before it left.
+_FINDERS: tuple[Finder, ...] = (wheels, knobs)
 
 
 def parts_of(mesh: Mesh, spec: Spec | None, max_parts: int, crease: float, node_hint: bool) -> Segmentation:
@@ -57,16 +64,17 @@ def _find(scene: Scene, segments: Segments, spec: Spec | None) -> list[Mover]:
     if segments.count == 1 or (segments.patches and segments.count > _MOST_PIECES):
         return []
     contacts = Contacts(scene)
-    movers = front_movers(scene, contacts, segments.patches)
-    taken = {piece for mover in movers for piece in mover.pieces}
-    rolling = [m for m in wheels(scene, contacts) if not taken.intersection(m.pieces)]
-    taken.update(piece for mover in rolling for piece in mover.pieces)
-    found = movers + rolling + knobs(scene, taken)
+    found = front_movers(scene, contacts, segments.patches)
+    taken = {piece for mover in found for piece in mover.pieces}
+    for finder in _FINDERS:
+        for mover in finder(scene, contacts, taken):
+            if not taken.intersection(mover.pieces):
+                found.append(mover)
+                taken.update(mover.pieces)
     if spec is not None:
         from .honouring import chosen_movers
 
-        used = {piece for mover in found for piece in mover.pieces}
-        found = chosen_movers(spec, scene, found, lambda: doubtful_movers(scene, contacts, used))
+        found = chosen_movers(spec, scene, found, lambda: doubtful_movers(scene, contacts, taken))
     return sorted(found, key=lambda mover: -mover.score)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
 from itertools import pairwise
 
 import numpy as np
@@ -32,29 +33,29 @@ def round_axis(points: FloatArray) -> int | None:
     return None
 
 
-def wheels(scene: Scene, contacts: Contacts) -> list[Mover]:
+def wheels(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
     """Discs with a level axis that stand on the ground, at least two of a size, and all within them."""
     ground = scene.box.lower[2]
     found: list[tuple[int, float]] = []
     for piece, box in enumerate(scene.boxes):
         diameter = box.size[2]
-        if not 0.02 < diameter < 0.6 or box.lower[2] > ground + 0.02:
+        if piece in taken or not 0.02 < diameter < 0.6 or box.lower[2] > ground + 0.02:
             continue
         axis = round_axis(scene.triangles[scene.labels == piece].reshape(-1, 3))
         if axis in (0, 1) and box.size[axis] < 0.8 * diameter:
             found.append((piece, float(diameter)))
     movers: list[Mover] = []
-    taken: set[int] = set()
+    used: set[int] = set()
     for piece, diameter in found:
         alike = [p for p, d in found if abs(d - diameter) < 0.1 * diameter]
-        if len(alike) >= 2 and piece not in taken:
+        if len(alike) >= 2 and piece not in used:
             pieces = (piece, *_inside(scene, contacts, piece))
-            taken.update(pieces)
+            used.update(pieces)
             movers.append(Mover(pieces, "wheel", 0.7, (f"one of {len(alike)} discs alike on the ground",)))
     return movers
 
 
-def knobs(scene: Scene, taken: set[int]) -> list[Mover]:
+def knobs(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
     """Rows of three or more small discs alike that stick out of a front and are nobody's handle."""
     rounds = []
     for piece, box in enumerate(scene.boxes):
