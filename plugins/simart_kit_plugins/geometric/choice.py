@@ -25,10 +25,12 @@ class Surroundings:
     Attributes:
         hardware: small pieces of the body, some of which may be hinges.
         neighbours: boxes of other moving parts.
+        posts: round, upright pieces of the body.
     """
 
     hardware: tuple[Box, ...]
     neighbours: tuple[Box, ...]
+    posts: tuple[Box, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -74,6 +76,7 @@ def edge_score(view: View, hinge: Candidate, around: Surroundings) -> Score:
     """Evidence for a hinge on one edge."""
     across, up = view.handle_place
     opposite = {"left": across, "right": -across, "bottom": up, "top": -up}[hinge.edge]
+    hardware = _hardware_on(view, hinge, around)
     upright = hinge.edge in ("left", "right")
     lid = view.facing == "top"
     bar = view.handle is not None and view.handle.size[0] > view.handle.size[1]
@@ -81,7 +84,8 @@ def edge_score(view: View, hinge: Candidate, around: Surroundings) -> Score:
     return _sum(
         (1.5, upright and opposite > 0.3, "handle on the opposite side"),
         (1.6, not upright and opposite > 0.5 and (bar or lid) and centred, "handle along the opposite side"),
-        (1.5, _hardware_on(view, hinge, around), "hinge-like pieces on this edge"),
+        (1.5, bool(hardware), "hinge-like pieces on this edge"),
+        (0.5, bool(hardware) and hardware[-1] - hardware[0] > 0.3, "several of them, as a lock is not"),
         (
             2.0,
             abs(view.ajar) > AJAR and upright and (view.ajar < 0) == (hinge.edge == "left"),
@@ -107,15 +111,17 @@ def _edge_line(view: View, hinge: Candidate) -> tuple[int, float, float]:
     return axis, float(hinge.origin[axis]), sign
 
 
-def _hardware_on(view: View, hinge: Candidate, around: Surroundings) -> bool:
+def _hardware_on(view: View, hinge: Candidate, around: Surroundings) -> list[float]:
+    """Where along an edge small pieces of the body are, in order, as shares of its length."""
     axis, place, _ = _edge_line(view, hinge)
-    panel = view.box
-    return any(
-        piece.lower[axis] - 0.012 <= place <= piece.upper[axis] + 0.012
-        and panel.lower[1 - axis] <= piece.center[1 - axis] <= panel.upper[1 - axis]
+    panel, along = view.box, 1 - axis
+    return sorted(
+        float((piece.center[along] - panel.lower[along]) / panel.size[along])
+        for piece in around.hardware
+        if piece.lower[axis] - 0.012 <= place <= piece.upper[axis] + 0.012
+        and panel.lower[along] <= piece.center[along] <= panel.upper[along]
         and piece.lower[2] <= panel.upper[2] + 0.02
         and piece.upper[2] >= panel.lower[2] - 0.02
-        for piece in around.hardware
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +21,10 @@ HANGS = 0.012  # closer than this, a box behind a front hangs on it
 SMALLEST = 0.035  # a front is at least this wide and high
 SPANNING = 0.7  # a piece that fills this share of every extent is the body
 VISIBLE = 0.7  # share of a front's rectangle that is seen from outside
+OPEN = 0.3  # share of rays straight back that meet something, below which one may pass behind a panel
+
+_GRIPS = 0.15  # share of a panel's rectangle that what one takes hold of behind it covers at most
+_AROUND = np.diag([-1.0, 1.0, -1.0])  # (u, v, w) as seen from the other side
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,11 +42,13 @@ class Front:
         backed: share of rays from behind it straight back that meet something.
         depth: median way of those rays.
         framed: share of sides on which something stands close beside it.
+        jambs: whether something stands close beside it on the left and on the right.
         boxed: whether it, with what hangs behind it, reaches as far back as a drawer does.
         hollow: whether the piece is open above, as a drawer in one piece is.
         flat: share of the piece's surface that faces out or back.
         loose: whether there is a gap, if a small one, to everything beside what moves with it.
         share: of the side's whole rectangle.
+        tall: its height as a share of the whole's.
         handles_middle: (3,) middle of all handles, or of the piece without any.
     """
 
@@ -55,11 +62,13 @@ class Front:
     backed: float
     depth: float
     framed: float
+    jambs: bool
     boxed: bool
     hollow: bool
     flat: float
     loose: bool
     share: float
+    tall: float
     handles_middle: FloatArray
 
     @property
@@ -82,9 +91,11 @@ def find_fronts(scene: Scene, contacts: Contacts, facing: str) -> list[Front]:
     for piece, box in enumerate(boxes):
         if (box.size[:2] < SMALLEST).any() or (box.size >= SPANNING * whole.size).all():
             continue
-        if box.upper[2] < whole.center[2]:
-            continue  # seen through an opening, it is a back wall
         inlays = _inlays(boxes, piece)
+        # Seen through an opening, it is a back wall, which has no handle.
+        inner = box.upper[2] < whole.center[2]
+        if inner and not (thin(box) and _handles(contacts, boxes, piece, inlays)):
+            continue
         if _seen(scene, axes, box, (piece, *inlays)) >= VISIBLE:
             found.append(_front(scene, contacts, facing, boxes, piece, inlays))
     return found
@@ -101,13 +112,18 @@ def _front(
         behind = ()  # racks, baskets and rails are not a drawer's box: they stay when a door opens
     own = (piece, *inlays, *handles, *behind)
     whole = scene.box.turned(axes)
-    flat = _flat(scene, axes, piece)
+    flat = _flat(scene, axes, (piece, *inlays))
     # A flat piece is a panel however far back it reaches: then it stands ajar.
     deep = behind if flat > PANEL else (piece, *behind)
     boxed = bool(deep) and _boxed(box.upper[2] - min(boxes[i].lower[2] for i in deep), box, whole)
     walled, backed, depth = _surroundings(
         scene, axes, box, own, box.upper[2] - 0.02 if boxed else box.lower[2]
     )
+    if backed < OPEN and not boxed:  # what stands free is taken hold of from both sides
+        far = _handles(contacts, [one.turned(_AROUND) for one in boxes], piece, inlays)
+        if sum(np.prod(boxes[i].size[:2]) for i in far) < _GRIPS * np.prod(box.size[:2]):
+            handles = tuple(dict.fromkeys((*handles, *far)))
+    beside = _beside(scene, axes, box, own)
     return Front(
         piece,
         facing,
@@ -118,14 +134,21 @@ def _front(
         walled,
         backed,
         depth,
-        framed=_framed(scene, axes, box, own),
+        framed=sum(beside) / 4,
+        jambs=beside[0] and beside[1],
         boxed=boxed,
         hollow=_hollow(scene, axes, box, piece),
         flat=flat,
         loose=all(contacts.gap(piece, i) > LOOSE for i in range(len(boxes)) if i not in own),
         share=float(np.prod(box.size[:2]) / np.prod(whole.size[:2])),
+        tall=float(box.size[1] / whole.size[1]),
         handles_middle=np.mean([boxes[i].center for i in handles or (piece,)], axis=0),
     )
+
+
+def thin(box: Box) -> bool:
+    """Whether a box (u, v, w) is a panel's."""
+    return bool(box.size[2] < 0.5 * box.size[:2].min())
 
 
 def _boxed(reach: float, front: Box, whole: Box) -> bool:
@@ -139,12 +162,12 @@ def _hollow(scene: Scene, axes: FloatArray, box: Box, piece: int) -> bool:
     points = _grid(box.turned(above), 8, 0.8)
     origins = np.column_stack([points[:, 0], np.full(len(points), box.upper[1] + 0.01), -points[:, 1]])
     others = tuple(i for i in range(scene.count) if i != piece)
-    labels, distance = _cast(scene, axes, origins, np.array([0.0, -1.0, 0.0]), others)
+    labels, distance = cast(scene, axes, origins, np.array([0.0, -1.0, 0.0]), others)
     return float(((labels >= 0) & (distance > 0.3 * box.size[1])).mean()) > 0.5
 
 
-def _flat(scene: Scene, axes: FloatArray, piece: int) -> float:
-    faces = scene.faces_of((piece,))
+def _flat(scene: Scene, axes: FloatArray, pieces: tuple[int, ...]) -> float:
+    faces = scene.faces_of(pieces)
     facing = np.abs(scene.normals[faces] @ axes[2]) > 0.9
     return float(scene.face_areas[faces][facing].sum() / max(scene.face_areas[faces].sum(), 1e-30))
 
@@ -163,7 +186,7 @@ def _inlays(boxes: list[Box], piece: int) -> tuple[int, ...]:
         i
         for i, box in enumerate(boxes)
         if i != piece
-        and _within(box, panel, 0.0)
+        and _within(box, panel, LOOSE)
         and box.lower[2] >= panel.lower[2] - TOUCH
         and box.upper[2] <= panel.upper[2] + TOUCH
     )
@@ -180,16 +203,35 @@ def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int
         and box.upper[2] > panel.upper[2] + 0.5 * TOUCH
         and box.upper[2] > reach
         and np.prod(box.size[:2]) < 0.25 * np.prod(panel.size[:2])
-        and box.size[2] < 0.5 * panel.size[:2].max()
+        and box.upper[2] - panel.upper[2] < 0.5 * panel.size[:2].max()
+        and not _glazing_bar(box, panel)
     ]
     # What touches the panel is on it, and so is what touches that: a knob on its stem.
     on = {piece, *inlays}
+    if thin(panel):  # a deep box may have all kinds of things within
+        on.update(i for i in found if meet(contacts, boxes, i, piece))
     grown = True
     while grown:
-        more = [i for i in found if i not in on and any(contacts.gap(i, j) <= TOUCH for j in on)]
+        more = [
+            i
+            for i in found
+            if i not in on
+            and any(contacts.gap(i, j) <= TOUCH or (j in found and meet(contacts, boxes, i, j)) for j in on)
+        ]
         on.update(more)
         grown = bool(more)
     return tuple(i for i in found if i in on)
+
+
+def _glazing_bar(box: Box, panel: Box) -> bool:
+    """Whether a piece runs across a pane from edge to edge and stands out on both sides: it divides it."""
+    across = (box.size[:2] > 0.95 * panel.size[:2]).any()
+    return bool(across and box.lower[2] < panel.lower[2] and box.upper[2] > panel.upper[2])
+
+
+def meet(contacts: Contacts, boxes: Sequence[Box], one: int, other: int) -> bool:
+    """Whether two pieces touch, or one is stuck into the other so deep that no corner is near its skin."""
+    return boxes[one].overlap(boxes[other], -TOUCH) or contacts.gap(one, other) <= TOUCH
 
 
 def _behind(contacts: Contacts, boxes: list[Box], piece: int, front: tuple[int, ...]) -> tuple[int, ...]:
@@ -243,7 +285,7 @@ def _drawer_box(
     points = _grid(inner.turned(below), 8, 0.9)
     origins = np.column_stack([points[:, 0], np.full(len(points), inner.lower[1] - 0.01), points[:, 1]])
     others = tuple(i for i in range(scene.count) if i not in behind)
-    labels, _ = _cast(scene, axes, origins, np.array([0.0, 1.0, 0.0]), others)
+    labels, _ = cast(scene, axes, origins, np.array([0.0, 1.0, 0.0]), others)
     return float((labels >= 0).mean()) >= 0.85
 
 
@@ -259,7 +301,7 @@ def _seen(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> flo
     points = _grid(box, 12, 1.0)
     outside = scene.box.turned(axes).upper[2] + 1.0
     origins = np.column_stack([points, np.full(len(points), outside)])
-    labels, distance = _cast(scene, axes, origins, np.array([0.0, 0.0, -1.0]))
+    labels, distance = cast(scene, axes, origins, np.array([0.0, 0.0, -1.0]))
     met = outside - distance
     on_top = (met > box.upper[2] - TOUCH) & (met < box.upper[2] + 0.1)  # a handle hides some of its panel
     return float((np.isin(labels, own) | on_top & _small(scene, labels, box)).mean())
@@ -278,15 +320,15 @@ def _surroundings(
     origins = np.column_stack([points, np.full(len(points), behind - 0.5 * TOUCH)])
     sides = []
     for direction in ([1.0, 0, 0], [-1.0, 0, 0], [0, 1.0, 0], [0, -1.0, 0]):
-        labels, _ = _cast(scene, axes, origins, np.array(direction), own)
+        labels, _ = cast(scene, axes, origins, np.array(direction), own)
         sides.append((labels >= 0).mean())
-    labels, distance = _cast(scene, axes, origins, np.array([0.0, 0.0, -1.0]), own)
+    labels, distance = cast(scene, axes, origins, np.array([0.0, 0.0, -1.0]), own)
     met = labels >= 0
     return float(np.mean(sides)), float(met.mean()), float(np.median(distance[met])) if met.any() else 0.0
 
 
-def _framed(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> float:
-    """Share of the four sides with another piece close beside the panel."""
+def _beside(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> tuple[bool, ...]:
+    """Whether another piece stands close beside the panel: on the left, right, below, above."""
     near = 0.05
     sides = []
     for axis in (0, 1):
@@ -296,12 +338,12 @@ def _framed(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> f
             points[:, axis] = box.upper[axis] if sign > 0 else box.lower[axis]
             direction = np.zeros(3)
             direction[axis] = sign
-            labels, distance = _cast(scene, axes, points - 0.001 * direction, direction, own)
-            sides.append(((labels >= 0) & (distance < near)).mean() > 0.5)
-    return float(np.mean(sides))
+            labels, distance = cast(scene, axes, points - 0.001 * direction, direction, own)
+            sides.append(bool(((labels >= 0) & (distance < near)).mean() > 0.5))
+    return tuple(sides)
 
 
-def _cast(
+def cast(
     scene: Scene, axes: FloatArray, origins: FloatArray, direction: FloatArray, passing: tuple[int, ...] = ()
 ) -> tuple[FloatArray, FloatArray]:
     """Piece met first by rays given in (u, v, w), and how far; pieces in `passing` are passed through."""

@@ -19,18 +19,22 @@ from simart_kit.sweeping import Motion, Sweep
 from .candidates import Candidate, Choice, at_depth, hinges, slide, spin
 from .choice import SPINNING, Surroundings, edge_score, hinge_score, says, slide_score
 from .contact import Contacts
+from .levers import LEVERS, levering, pierced
+from .pivots import is_post, on_post, pivot
 from .rounds import round_axis
-from .scene import Scene, make_scene
+from .sashes import SASHES, sliding
+from .scene import Box, Scene, make_scene
 from .views import View, view_part
 
 if TYPE_CHECKING:
     from simart_kit import Mesh
-    from simart_kit.arrays import FloatArray
+    from simart_kit.arrays import BoolArray, FloatArray
     from simart_kit.spec.values import Spec
 
 _SUFFIX = {"revolute": "hinge", "prismatic": "slide", "continuous": "spin"}
 _SHUT = np.deg2rad(0.5)
 _AS_FREE = 0.005  # share of points that may pass through more than about the freest line
+_POST = 0.3  # of the diagonal: lower rods hold no leaf
 _HARDWARE = 0.12  # pieces of the body smaller than this share of the diagonal may be hinges
 
 
@@ -51,14 +55,17 @@ def joints_of(
     body = _body(scene, segmentation)
     moving = [i for i in range(scene.count) if i != body]
     views = {i: view_part(scene, i) for i in moving}
-    hardware = _hardware(mesh, scene, body)
+    pieces = make_scene(mesh, find_segments(mesh, relief=True).face_segment)
+    hardware = _hardware(pieces, scene, body)
+    posts = _posts(pieces, scene, body)
     contacts = Contacts(scene)
     granted = _granting(mesh, segmentation, spec)
     found = []
     for part in moving:
         label = segmentation.parts[part].label or segmentation.parts[part].name
-        around = _surroundings(scene, views[part], hardware, [i for i in moving if i != part])
-        carrier = _carrier(contacts, body, part, moving)
+        around = _surroundings(scene, views[part], hardware, posts, [i for i in moving if i != part])
+        carrier = pierced(scene, part, moving) if says(label, LEVERS) else None
+        carrier = _carrier(contacts, body, part, moving) if carrier is None else carrier
         made = partial(_joint, scene, views[part], segmentation, carrier, open_angle)
         joint = made(_choose(scene, views[part], label, around))
         if not granted(part, joint):
@@ -80,11 +87,16 @@ def _choose(scene: Scene, view: View, label: str, around: Surroundings) -> Choic
     sliding, hinged = slide_score(view, label), hinge_score(view, label)
     if sliding.value > hinged.value:
         return slide(view), _confidence(sliding.value - hinged.value), sliding.reasons
+    turning = pivot(view, around.hardware)
+    if turning is not None:
+        return turning
     scored = [(edge_score(view, hinge, around), hinge) for hinge in hinges(view)]
     scored.sort(key=lambda item: -item[0].value)
     (best, hinge), (second, _) = scored[0], scored[1]
     margin = min(best.value - second.value, hinged.value - sliding.value)
-    return _deep_enough(scene, view, hinge), _confidence(margin), hinged.reasons + best.reasons
+    post = on_post(hinge, view.box, around.posts)
+    line = _deep_enough(scene, view, hinge) if post is hinge else post
+    return line, _confidence(margin), hinged.reasons + best.reasons
 
 
 def _spinning(scene: Scene, view: View) -> Choice | None:
@@ -99,6 +111,8 @@ def _spinning(scene: Scene, view: View) -> Choice | None:
 
 # What is said of parts that are called so; of none where the shape does not bear it out.
 _SPECIAL: tuple[tuple[tuple[str, ...], Callable[[Scene, View], Choice | None]], ...] = (
+    (LEVERS, levering),
+    (SASHES, sliding),
     (SPINNING, _spinning),
 )
 
@@ -149,32 +163,47 @@ def _body(scene: Scene, segmentation: Segmentation) -> int:
     return int(scene.areas.argmax())
 
 
-def _hardware(mesh: Mesh, scene: Scene, body: int) -> Scene | None:
+def _hardware(pieces: Scene, scene: Scene, body: int) -> Scene | None:
     """Small connected pieces of the body, as a scene in the same frame; None when there are none."""
-    pieces = find_segments(mesh, relief=True).face_segment
-    whole = make_scene(mesh, pieces)
-    sizes = np.array([np.linalg.norm(box.size) for box in whole.boxes])
-    elsewhere = np.bincount(pieces, scene.labels != body, whole.count) > 0
-    small = np.flatnonzero((sizes < _HARDWARE) & ~elsewhere)
-    faces = np.flatnonzero(np.isin(pieces, small))
+    sizes = np.array([np.linalg.norm(box.size) for box in pieces.boxes])
+    small = np.flatnonzero((sizes < _HARDWARE) & _of_body(pieces, scene, body))
+    faces = np.flatnonzero(np.isin(pieces.labels, small))
     if not len(faces):
         return None
-    _, labels = np.unique(pieces[faces], return_inverse=True)
+    _, labels = np.unique(pieces.labels[faces], return_inverse=True)
     return Scene(
-        whole.vertices,
-        whole.faces[faces],
+        pieces.vertices,
+        pieces.faces[faces],
         labels,
         int(labels.max()) + 1,
-        whole.aligned_from_asset,
-        whole.size,
-        whole.origin,
+        pieces.aligned_from_asset,
+        pieces.size,
+        pieces.origin,
     )
 
 
-def _surroundings(scene: Scene, view: View, hardware: Scene | None, others: list[int]) -> Surroundings:
+def _posts(pieces: Scene, scene: Scene, body: int) -> tuple[Box, ...]:
+    """Round rods of the body that stand upright."""
+    upright = np.array([box.size[2] > 4 * box.size[:2].max() for box in pieces.boxes])
+    high = np.array([box.size[2] > _POST for box in pieces.boxes])
+    able = np.flatnonzero(upright & high & _of_body(pieces, scene, body))
+    return tuple(
+        pieces.boxes[i] for i in able if is_post(pieces.triangles[pieces.labels == i].reshape(-1, 3))
+    )
+
+
+def _of_body(pieces: Scene, scene: Scene, body: int) -> BoolArray:
+    """(N,) which pieces have no face in any other part."""
+    return np.asarray(np.bincount(pieces.labels, scene.labels != body, pieces.count) == 0)
+
+
+def _surroundings(
+    scene: Scene, view: View, hardware: Scene | None, posts: tuple[Box, ...], others: list[int]
+) -> Surroundings:
     return Surroundings(
         tuple(box.turned(view.axes) for box in hardware.boxes) if hardware else (),
         tuple(scene.boxes[i].turned(view.axes) for i in others),
+        tuple(box.turned(view.axes) for box in posts),
     )
 
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass
 
 import numpy as np
 
 from .contact import Contacts
-from .fronts import Front, find_fronts
+from .fronts import OPEN, Front, find_fronts, thin
+from .sashes import passing, slides_over
 from .scene import FACINGS, Scene
+from .siblings import twins
 
 ENCLOSED = 0.85  # share of rays behind a panel that must meet something for a cavity
 SHALLOWEST = 0.05  # a cavity is at least this deep
@@ -17,6 +19,9 @@ FLAT = 0.4  # share of a panel's surface that faces out or back
 FRAMED = 0.75  # share of its sides with something close beside, of what stands in a frame
 WHOLE = 0.9  # share of its side from which on a front is that side
 LEAST_SHARE = 0.06  # of its side that a front without a handle takes
+TALL = 0.8  # share of the object's height above which a leaf is for passing through
+MOST = 0.4  # share of its side that the leaf in a doorway takes
+_TWIN = 0.5  # how sure a front is of which only its twin opens by itself
 _DOUBTFUL = 0.3  # how sure a front is that takes its whole side, and for which nothing else speaks
 
 
@@ -45,13 +50,18 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     """
     fronts = {facing: find_fronts(scene, contacts, facing) for facing in FACINGS}
     main = _main_side(fronts)
-    chosen: list[tuple[float, Front]] = []
-    for facing, found in fronts.items():
-        for front in found:
-            score = _score(front, facing == main, fused)
-            if score > 0:
-                chosen.append((score, front))
-    return _apart(chosen, set())
+    every = [front for facing in FACINGS for front in fronts[facing]]
+    able = [] if fused else [front for front in every if _is_panel(front)]
+    tracks = passing(scene, [front for front in able if front.framed >= 0.5])
+    scored: list[tuple[float, Front]] = []
+    for front in every:
+        score = max(_score(front, front.facing == main, fused), 0.8 * (front.piece in tracks))
+        if score > 0:
+            scored.append((score, front))
+    scored = _without_skins(scored)
+    scored += [(_TWIN, front) for front in twins(scene, [front for _, front in scored], able)]
+    tracks |= {front.piece for _, front in scored if _is_panel(front) and slides_over(scene, front)}
+    return _apart(scored, set(), tracks)
 
 
 def doubtful_movers(scene: Scene, contacts: Contacts, taken: set[int]) -> list[Mover]:
@@ -60,16 +70,35 @@ def doubtful_movers(scene: Scene, contacts: Contacts, taken: set[int]) -> list[M
     sides = {_main_side(fronts), "top"}
     found = [front for facing in FACINGS if facing in sides for front in fronts[facing]]
     able = [front for front in found if _is_panel(front) or front.boxed]
-    return _apart([(_DOUBTFUL * front.share, front) for front in able], taken)
+    return _apart([(_DOUBTFUL * front.share, front) for front in able], taken, set())
 
 
-def _apart(scored: Sequence[tuple[float, Front]], taken: set[int]) -> list[Mover]:
-    """The surest first, without those that share pieces with surer ones or with `taken`."""
+def _without_skins(scored: Sequence[tuple[float, Front]]) -> list[tuple[float, Front]]:
+    """Without those that lie in another with the same outline: the face of a leaf is not a leaf."""
+    skins = {
+        piece
+        for _, front in scored
+        for _, other in scored
+        for piece in front.inlays
+        if piece == other.piece and other.area > 0.9 * front.area and front.piece not in other.inlays
+    }
+    return [(score, front) for score, front in scored if front.piece not in skins]
+
+
+def _apart(scored: Sequence[tuple[float, Front]], taken: set[int], tracks: Set[int]) -> list[Mover]:
+    """The surest first, without those that share pieces with surer ones or with `taken`.
+
+    Args:
+        scored: how sure each is.
+        taken: pieces.
+        tracks: panels that slide along their front.
+    """
     used, movers = set(taken), []
     for score, front in sorted(scored, key=lambda item: (-item[0], -item[1].area)):
         if not used.intersection(front.pieces):
             used.update(front.pieces)
-            movers.append(Mover(front.pieces, _label(front), score, _evidence(front)))
+            label = "sliding_door" if front.piece in tracks else _label(front)
+            movers.append(Mover(front.pieces, label, score, _evidence(front)))
     return movers
 
 
@@ -102,7 +131,12 @@ def _opens_by_handle(front: Front) -> bool:
         return _is_panel(front) and _closes_cavity(front)
     if front.boxed:
         return front.walled >= 0.5 or front.hollow or bool(front.behind)
-    return _is_panel(front) and (front.backed >= ENCLOSED or front.framed >= FRAMED)
+    return _is_panel(front) and (front.backed >= ENCLOSED or front.framed >= FRAMED or _in_doorway(front))
+
+
+def _in_doorway(front: Front) -> bool:
+    """A tall leaf between two posts through which one passes."""
+    return front.jambs and front.backed < OPEN and front.tall > TALL and front.share > MOST
 
 
 def _opens_by_place(front: Front) -> bool:
@@ -115,7 +149,7 @@ def _opens_by_place(front: Front) -> bool:
 
 
 def _is_panel(front: Front) -> bool:
-    return front.flat >= FLAT and front.box.size[2] < 0.5 * front.box.size[:2].min()
+    return front.flat >= FLAT and thin(front.box)
 
 
 def _closes_cavity(front: Front) -> bool:

@@ -12,6 +12,7 @@ from simart_kit.arrays import frozen_ints
 from simart_kit.segments import Segments, find_segments
 
 from .contact import Contacts
+from .levers import with_levers
 from .movers import Mover, doubtful_movers, front_movers
 from .naming import names
 from .rounds import knobs, wheels
@@ -64,7 +65,7 @@ def _find(scene: Scene, segments: Segments, spec: Spec | None) -> list[Mover]:
     if segments.count == 1 or (segments.patches and segments.count > _MOST_PIECES):
         return []
     contacts = Contacts(scene)
-    found = front_movers(scene, contacts, segments.patches)
+    found = with_levers(scene, contacts, front_movers(scene, contacts, segments.patches))
     taken = {piece for mover in found for piece in mover.pieces}
     for finder in _FINDERS:
         for mover in finder(scene, contacts, taken):

@@ -22,6 +22,7 @@ class View:
         facing: key of `FACINGS`.
         box: of the part without what sticks out of its front.
         handle: of what sticks out of the front, or None.
+        foot: (2,) where that stands on the front [u, v]; without any, the middle of the front.
         body: bounding box of everything.
         ajar: angle of the front against the facing, about v, right-handed [rad].
     """
@@ -30,6 +31,7 @@ class View:
     facing: str
     box: Box
     handle: Box | None
+    foot: FloatArray
     body: Box
     ajar: float
 
@@ -40,10 +42,8 @@ class View:
 
     @property
     def handle_place(self) -> tuple[float, float]:
-        """Middle of the handle on the front, -1..1 across and up; (0, 0) without a handle."""
-        if self.handle is None:
-            return 0.0, 0.0
-        u, v = 2 * (self.handle.center - self.box.center)[:2] / np.maximum(self.box.size[:2], 1e-9)
+        """Foot of the handle on the front, -1..1 across and up; (0, 0) without a handle."""
+        u, v = 2 * (self.foot - self.box.center[:2]) / np.maximum(self.box.size[:2], 1e-9)
         return float(u), float(v)
 
     @property
@@ -67,7 +67,47 @@ def view_part(scene: Scene, part: int) -> View:
         if len(out) and np.prod(np.ptp(out[:, :2], axis=0)) < 0.4 * np.prod(whole.size[:2]):
             handle = Box(out.min(axis=0), out.max(axis=0))
             box = Box(whole.lower, np.array([whole.upper[0], whole.upper[1], front]))
-    return View(part, facing, box, handle, scene.box.turned(axes), ajar)
+    box = _without_back_handle(corners, box)
+    foot = box.center[:2] if handle is None else _foot(corners, front, handle)
+    return View(part, facing, box, handle, foot, scene.box.turned(axes), ajar)
+
+
+def _without_back_handle(corners: FloatArray, box: Box) -> Box:
+    """The box of a thin panel, without a small thing that sticks out of its back: a door's other handle."""
+    heights = corners[..., 2]
+    flat = np.ptp(heights, axis=1) < 1e-4
+    spread = np.prod(np.ptp(corners[..., :2], axis=1), axis=1)
+    low = heights[flat & (spread > 0.1 * np.prod(box.size[:2]))]
+    if not len(low) or low.min() - box.lower[2] < _STICKS_OUT:
+        return box
+    back = float(low.min())
+    out = corners[(heights < back - 0.3 * (back - box.lower[2])).all(axis=1)].reshape(-1, 3)
+    thin = box.upper[2] - back < 0.3 * box.size[:2].min()
+    if not thin or not len(out) or np.prod(np.ptp(out[:, :2], axis=0)) > 0.15 * np.prod(box.size[:2]):
+        return box
+    return Box(np.array([*box.lower[:2], back]), box.upper)
+
+
+def _foot(corners: FloatArray, front: float, handle: Box) -> FloatArray:
+    """(2,) middle of the cut through a handle close to its front: a lever reaches far from its stem."""
+    level = front + 0.2 * (handle.upper[2] - front)
+    within = ((corners[..., :2] >= handle.lower[:2]) & (corners[..., :2] <= handle.upper[:2])).all(
+        axis=(1, 2)
+    )
+    middle = cut(corners[within], level)
+    return handle.center[:2] if middle is None else middle
+
+
+def cut(corners: FloatArray, level: float) -> FloatArray | None:
+    """(2,) middle of where (F, 3, 3) triangles cross a height in the third coordinate; None where none do."""
+    starts, ends = corners.reshape(-1, 3), np.roll(corners, -1, axis=1).reshape(-1, 3)
+    crossing = (starts[:, 2] - level) * (ends[:, 2] - level) < 0
+    if not crossing.any():
+        return None
+    starts, ends = starts[crossing], ends[crossing]
+    share = ((level - starts[:, 2]) / (ends - starts)[:, 2])[:, None]
+    points = (starts + share * (ends - starts))[:, :2]
+    return np.asarray((points.min(axis=0) + points.max(axis=0)) / 2)
 
 
 def _shown(scene: Scene, axes: FloatArray, part: int) -> float:

@@ -1,0 +1,101 @@
+"""Levers and knobs on a spindle that goes through a leaf: they turn about it, and the leaf carries them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from .candidates import Candidate, Choice
+from .contact import Contacts
+from .fronts import meet
+from .movers import Mover
+from .rounds import round_axis
+from .scene import Box, Scene
+from .views import View, cut
+
+LEVERS = ("lever",)
+_OUT = 0.01  # diagonals that a spindle stands out on both sides at least
+_NARROW = 0.25  # of a leaf's shorter side that a spindle is wide at most
+_TURN = np.pi / 4  # how far a lever goes [rad]
+
+
+def with_levers(scene: Scene, contacts: Contacts, movers: Sequence[Mover]) -> list[Mover]:
+    """The movers, and the lever of each door through which a spindle goes as one of its own."""
+    result: list[Mover] = []
+    for mover in movers:
+        lever = _lever(scene, contacts, mover.pieces) if mover.label == "door" else ()
+        result.append(replace(mover, pieces=tuple(i for i in mover.pieces if i not in lever)))
+        if lever:
+            result.append(Mover(lever, "lever", 0.9 * mover.score, ("its spindle goes through a door",)))
+    return result
+
+
+def pierced(scene: Scene, part: int, others: Sequence[int]) -> int | None:
+    """The part that one goes right through, across the least of its extents."""
+    return next((other for other in others if _through(scene.boxes[part], scene.boxes[other])), None)
+
+
+def levering(scene: Scene, view: View) -> Choice | None:
+    """About the middle of what goes through another part."""
+    others = [i for i in range(scene.count) if i != view.part]
+    leaf = pierced(scene, view.part, others)
+    if leaf is None:
+        return None
+    box = scene.boxes[leaf]
+    normal = int(box.size.argmin())
+    turn = np.roll(np.eye(3), 2 - normal, axis=0)  # rows: two in the leaf's plane, then its normal
+    corners = scene.triangles[scene.labels == view.part] @ turn.T
+    middle = cut(corners, float(box.center[normal]))
+    if middle is None:
+        return None
+    origin = np.array([*middle, box.center[normal]]) @ turn
+    axis = np.zeros(3)
+    axis[normal] = 1.0
+    candidate = Candidate("revolute", view.axes @ axis, view.axes @ origin, _TURN)
+    return candidate, 0.7, ("its spindle goes through the leaf",)
+
+
+def _lever(scene: Scene, contacts: Contacts, door: tuple[int, ...]) -> tuple[int, ...]:
+    """The spindle through a door's leaf, with all that it holds before and behind the leaf; or nothing."""
+    panel = max(door, key=lambda piece: float(np.prod(np.sort(scene.boxes[piece].size)[1:])))
+    leaf = scene.boxes[panel]
+    spindles = [piece for piece in door if piece != panel and _spindle(scene, piece, leaf)]
+    if len(spindles) != 1:
+        return ()
+    normal = int(leaf.size.argmin())
+    outside = [
+        i
+        for i, box in enumerate(scene.boxes)
+        if (box.lower[normal] > leaf.upper[normal] or box.upper[normal] < leaf.lower[normal])
+        and box.size.max() < 0.5 * leaf.size.max()
+    ]
+    lever, grown = set(spindles), True
+    while grown:
+        more = {i for i in outside if any(meet(contacts, scene.boxes, i, j) for j in lever)} - lever
+        lever |= more
+        grown = bool(more)
+    return tuple(sorted(lever))
+
+
+def _spindle(scene: Scene, piece: int, leaf: Box) -> bool:
+    """Whether a piece is a rod that goes through a leaf."""
+    box, normal = scene.boxes[piece], int(leaf.size.argmin())
+    within = np.delete(np.arange(3), normal)
+    if not _through(box, leaf) or box.size.argmax() != normal:
+        return False
+    points = scene.triangles[scene.labels == piece].reshape(-1, 3).copy()
+    points[:, normal] *= 0.1  # a rod is a disc that is drawn out
+    return bool(box.size[within].max() < _NARROW * leaf.size[within].min() and round_axis(points) == normal)
+
+
+def _through(box: Box, leaf: Box) -> bool:
+    normal = int(leaf.size.argmin())
+    within = np.delete(np.arange(3), normal)
+    inside = (box.center[within] > leaf.lower[within]) & (box.center[within] < leaf.upper[within])
+    return bool(
+        inside.all()
+        and box.lower[normal] < leaf.lower[normal] - _OUT
+        and box.upper[normal] > leaf.upper[normal] + _OUT
+    )

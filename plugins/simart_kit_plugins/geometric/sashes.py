@@ -1,0 +1,129 @@
+"""What slides along its own front: leaves that pass by each other, and panels that pass before a body."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+
+import numpy as np
+
+from simart_kit.arrays import FloatArray
+from simart_kit.sweeping import Motion, Sweep
+
+from .candidates import Candidate, Choice
+from .fronts import Front, cast
+from .scene import FACINGS, Box, Scene
+from .siblings import alike, same_plane_axes
+from .views import View
+
+SASHES = ("sliding", "sash")
+_APART = 0.25  # share of their thickness that leaves in two tracks may share
+_NEAR = 0.02  # diagonals between two tracks at most
+_CLOSES = -0.005  # diagonals by which the edges of two leaves may miss each other where they should meet
+_ROOM = 0.9  # share of its width that a panel needs beside itself
+_INNER = 0.3  # from the middle to the edge, where a handle is on the side of the room
+_STOPS = 20
+
+
+def passing(scene: Scene, fronts: Sequence[Front]) -> set[int]:
+    """Panels of leaves alike, side by side in two tracks: where they meet, one overlaps the other."""
+    found: set[int] = set()
+    for one, other in combinations(fronts, 2):
+        if alike(scene, one, other) and _two_tracks(scene, one, other):
+            found.update((one.piece, other.piece))
+    return found
+
+
+def slides_over(scene: Scene, front: Front) -> bool:
+    """Whether a panel lies on one end of a body, which goes on for its width, and is not hinged on that end.
+
+    A leaf that is hinged there has its handle on the side of that room, and a flap one along its edge.
+    """
+    if front.facing == "top" or front.boxed or not front.handles:
+        return False
+    axes, box = FACINGS[front.facing], front.box
+    grips = [scene.boxes[i].turned(axes) for i in front.handles]
+    size = np.max([grip.upper for grip in grips], axis=0) - np.min([grip.lower for grip in grips], axis=0)
+    place = 2 * (front.handles_middle - box.center)[0] / box.size[0]
+    left, right = (_room(scene, axes, front, sign) for sign in (-1.0, 1.0))
+    return bool(left != right and size[1] > size[0] and (place if right else -place) < _INNER)
+
+
+def sliding(scene: Scene, view: View) -> Choice:
+    """Along the front to where it goes farthest; the longer way where both are free."""
+    mine = scene.labels == view.part
+    sweep = Sweep(scene.vertices @ view.axes.T, scene.faces[mine], scene.faces[~mine])
+    best: tuple[float, float, FloatArray] | None = None
+    for axis, sign in ((0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)):
+        direction = np.zeros(3)
+        direction[axis] = sign
+        # Beyond the body nothing stops a leaf, and nothing holds it.
+        end = (
+            view.body.upper[axis] - view.box.upper[axis]
+            if sign > 0
+            else view.box.lower[axis] - view.body.lower[axis]
+        )
+        limit = min(float(end), float(view.box.size[axis]))
+        travel = sweep.free(_along(direction), limit, _STOPS) if limit > 0 else 0.0
+        share = travel / view.box.size[axis]
+        if share >= 0.4 and (best is None or share > best[0] + 0.1):
+            best = share, travel, direction
+    if best is None:
+        return _towards_the_middle(view)
+    candidate = Candidate("prismatic", best[2], view.box.center, best[1])
+    return candidate, 0.7, ("has room beside itself to slide into",)
+
+
+def _towards_the_middle(view: View) -> Choice:
+    """Along the front to where the body goes on: something in the model is in the way of everything."""
+    off = view.body.center - view.box.center
+    sign = 1.0 if off[0] >= 0 else -1.0
+    travel = min(2 * abs(float(off[0])), float(view.box.size[0]))
+    candidate = Candidate("prismatic", np.array([sign, 0.0, 0.0]), view.box.center, max(travel, 0.05))
+    return candidate, 0.4, ("slides to where the body goes on",)
+
+
+def _two_tracks(scene: Scene, one: Front, other: Front) -> bool:
+    a, b = scene.boxes[one.piece], scene.boxes[other.piece]
+    normal, *within = same_plane_axes(one)
+    thickness = min(a.size[normal], b.size[normal])
+    apart = -_shared(a, b, normal)
+    if not -_APART * thickness <= apart <= thickness + _NEAR:
+        return False
+    for along, across in (within, within[::-1]):
+        level = _shared(a, b, across) > 0.95 * a.size[across]
+        if level and _CLOSES <= _shared(a, b, along) < 0.5 * a.size[along]:
+            return True
+    return False
+
+
+def _shared(a: Box, b: Box, axis: int) -> float:
+    """Length along an axis that two boxes share; negative where they are apart."""
+    return float(min(a.upper[axis], b.upper[axis]) - max(a.lower[axis], b.lower[axis]))
+
+
+def _room(scene: Scene, axes: FloatArray, front: Front, sign: float) -> bool:
+    """Whether nothing stands beside a panel for its width, and the body is behind all of that room."""
+    box, heights, whole = front.box, np.linspace(-0.35, 0.35, 5), scene.box.turned(axes)
+    end = box.center[0] + sign * (0.5 + _ROOM) * box.size[0]
+    if not whole.lower[0] <= end <= whole.upper[0]:
+        return False
+    points = np.tile(box.center, (5, 1))
+    points[:, 1] += heights * box.size[1]
+    labels, distance = cast(scene, axes, points, np.array([sign, 0.0, 0.0]), front.pieces)
+    if ((labels >= 0) & (distance < (0.5 + _ROOM) * box.size[0])).any():
+        return False
+    steps = (0.6, 0.8, 1.0, 1.2, 1.35)
+    beside = np.concatenate([points + [sign * step * box.size[0], 0.0, 0.0] for step in steps])
+    behind, _ = cast(scene, axes, beside, np.array([0.0, 0.0, -1.0]), front.pieces)
+    before, _ = cast(scene, axes, beside, np.array([0.0, 0.0, 1.0]), front.pieces)
+    return bool((behind >= 0).mean() > _ROOM and (before < 0).mean() > _ROOM)
+
+
+def _along(direction: FloatArray) -> Motion:
+    def motion(travel: float) -> FloatArray:
+        matrix = np.eye(4)
+        matrix[:3, 3] = travel * direction
+        return matrix
+
+    return motion
