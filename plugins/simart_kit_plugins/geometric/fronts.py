@@ -23,7 +23,7 @@ SPANNING = 0.7  # a piece that fills this share of every extent is the body
 VISIBLE = 0.7  # share of a front's rectangle that is seen from outside
 OPEN = 0.3  # share of rays straight back that meet something, below which one may pass behind a panel
 
-_GRIPS = 0.15  # share of a panel's rectangle that what one takes hold of behind it covers at most
+_GRIPS = 0.15  # share of a panel's rectangle that what one takes hold of covers at most
 _AROUND = np.diag([-1.0, 1.0, -1.0])  # (u, v, w) as seen from the other side
 
 
@@ -94,7 +94,7 @@ def find_fronts(scene: Scene, contacts: Contacts, facing: str) -> list[Front]:
         inlays = _inlays(boxes, piece)
         # Seen through an opening, it is a back wall, which has no handle.
         inner = box.upper[2] < whole.center[2]
-        if inner and not (thin(box) and _handles(contacts, boxes, piece, inlays)):
+        if inner and not (thin(box) and _grips(contacts, boxes, piece, inlays)):
             continue
         if _seen(scene, axes, box, (piece, *inlays)) >= VISIBLE:
             found.append(_front(scene, contacts, facing, boxes, piece, inlays))
@@ -120,9 +120,8 @@ def _front(
         scene, axes, box, own, box.upper[2] - 0.02 if boxed else box.lower[2]
     )
     if backed < OPEN and not boxed:  # what stands free is taken hold of from both sides
-        far = _handles(contacts, [one.turned(_AROUND) for one in boxes], piece, inlays)
-        if sum(np.prod(boxes[i].size[:2]) for i in far) < _GRIPS * np.prod(box.size[:2]):
-            handles = tuple(dict.fromkeys((*handles, *far)))
+        around = [one.turned(_AROUND) for one in boxes]
+        handles = tuple(dict.fromkeys((*handles, *_grips(contacts, around, piece, inlays))))
     beside = _beside(scene, axes, box, own)
     return Front(
         piece,
@@ -221,6 +220,16 @@ def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int
         on.update(more)
         grown = bool(more)
     return tuple(i for i in found if i in on)
+
+
+def _grips(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int, ...]) -> tuple[int, ...]:
+    """Handles of a panel that are few and small, and held by nothing but it, as no shelf is."""
+    handles = _handles(contacts, boxes, piece, inlays)
+    covered = sum(float(np.prod(boxes[i].size[:2])) for i in handles)
+    if covered > _GRIPS * np.prod(boxes[piece].size[:2]):
+        return ()
+    others = [i for i in range(len(boxes)) if i not in (piece, *inlays, *handles)]
+    return tuple(i for i in handles if all(contacts.gap(i, j) > HOLDS for j in others))
 
 
 def _glazing_bar(box: Box, panel: Box) -> bool:

@@ -19,7 +19,7 @@ from simart_kit.sweeping import Motion, Sweep
 from .candidates import Candidate, Choice, at_depth, hinges, slide, spin
 from .choice import SPINNING, Surroundings, edge_score, hinge_score, says, slide_score
 from .contact import Contacts
-from .levers import LEVERS, levering, pierced
+from .levers import LEVERS, levering, pierced, with_handle
 from .pivots import is_post, on_post, pivot
 from .rounds import round_axis
 from .sashes import SASHES, sliding
@@ -54,7 +54,9 @@ def joints_of(
     scene = make_scene(mesh, segmentation.face_part)
     body = _body(scene, segmentation)
     moving = [i for i in range(scene.count) if i != body]
-    views = {i: view_part(scene, i) for i in moving}
+    labels = [part.label or part.name for part in segmentation.parts]
+    levers = [i for i in moving if says(labels[i], LEVERS)]
+    views = {i: with_handle(scene, view_part(scene, i), levers) for i in moving}
     pieces = make_scene(mesh, find_segments(mesh, relief=True).face_segment)
     hardware = _hardware(pieces, scene, body)
     posts = _posts(pieces, scene, body)
@@ -62,9 +64,9 @@ def joints_of(
     granted = _granting(mesh, segmentation, spec)
     found = []
     for part in moving:
-        label = segmentation.parts[part].label or segmentation.parts[part].name
+        label = labels[part]
         around = _surroundings(scene, views[part], hardware, posts, [i for i in moving if i != part])
-        carrier = pierced(scene, part, moving) if says(label, LEVERS) else None
+        carrier = pierced(scene, part, moving) if part in levers else None
         carrier = _carrier(contacts, body, part, moving) if carrier is None else carrier
         made = partial(_joint, scene, views[part], segmentation, carrier, open_angle)
         joint = made(_choose(scene, views[part], label, around))

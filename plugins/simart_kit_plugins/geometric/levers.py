@@ -7,11 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from simart_kit.arrays import FloatArray
+
 from .candidates import Candidate, Choice
 from .contact import Contacts
 from .fronts import meet
 from .movers import Mover
-from .rounds import round_axis
+from .rounds import is_rod
 from .scene import Box, Scene
 from .views import View, cut
 
@@ -39,22 +41,33 @@ def pierced(scene: Scene, part: int, others: Sequence[int]) -> int | None:
 
 def levering(scene: Scene, view: View) -> Choice | None:
     """About the middle of what goes through another part."""
-    others = [i for i in range(scene.count) if i != view.part]
-    leaf = pierced(scene, view.part, others)
-    if leaf is None:
+    leaf = pierced(scene, view.part, [i for i in range(scene.count) if i != view.part])
+    origin = None if leaf is None else _pierced_at(scene, view.part, leaf)
+    if leaf is None or origin is None:
         return None
+    axis = np.zeros(3)
+    axis[int(scene.boxes[leaf].size.argmin())] = 1.0
+    candidate = Candidate("revolute", view.axes @ axis, view.axes @ origin, _TURN)
+    return candidate, 0.7, ("its spindle goes through the leaf",)
+
+
+def with_handle(scene: Scene, view: View, levers: Sequence[int]) -> View:
+    """The view, with the lever that goes through the part as its handle; as it is without one."""
+    for lever in levers:
+        if pierced(scene, lever, [view.part]) is not None:
+            at = _pierced_at(scene, lever, view.part)
+            if at is not None:
+                return replace(view, handle=scene.boxes[lever].turned(view.axes), foot=(view.axes @ at)[:2])
+    return view
+
+
+def _pierced_at(scene: Scene, part: int, leaf: int) -> FloatArray | None:
+    """(3,) middle of where one part goes through the middle of another."""
     box = scene.boxes[leaf]
     normal = int(box.size.argmin())
     turn = np.roll(np.eye(3), 2 - normal, axis=0)  # rows: two in the leaf's plane, then its normal
-    corners = scene.triangles[scene.labels == view.part] @ turn.T
-    middle = cut(corners, float(box.center[normal]))
-    if middle is None:
-        return None
-    origin = np.array([*middle, box.center[normal]]) @ turn
-    axis = np.zeros(3)
-    axis[normal] = 1.0
-    candidate = Candidate("revolute", view.axes @ axis, view.axes @ origin, _TURN)
-    return candidate, 0.7, ("its spindle goes through the leaf",)
+    middle = cut(scene.triangles[scene.labels == part] @ turn.T, float(box.center[normal]))
+    return None if middle is None else np.array([*middle, box.center[normal]]) @ turn
 
 
 def _lever(scene: Scene, contacts: Contacts, door: tuple[int, ...]) -> tuple[int, ...]:
@@ -85,9 +98,8 @@ def _spindle(scene: Scene, piece: int, leaf: Box) -> bool:
     within = np.delete(np.arange(3), normal)
     if not _through(box, leaf) or box.size.argmax() != normal:
         return False
-    points = scene.triangles[scene.labels == piece].reshape(-1, 3).copy()
-    points[:, normal] *= 0.1  # a rod is a disc that is drawn out
-    return bool(box.size[within].max() < _NARROW * leaf.size[within].min() and round_axis(points) == normal)
+    narrow = box.size[within].max() < _NARROW * leaf.size[within].min()
+    return bool(narrow) and is_rod(scene.triangles[scene.labels == piece].reshape(-1, 3), normal)
 
 
 def _through(box: Box, leaf: Box) -> bool:

@@ -10,7 +10,7 @@ import numpy as np
 from simart_kit.arrays import FloatArray
 
 from .candidates import Candidate, Choice
-from .rounds import round_axis
+from .rounds import is_rod
 from .scene import Box
 from .views import View
 
@@ -47,8 +47,7 @@ def on_post(hinge: Candidate, panel: Box, posts: Sequence[Box]) -> Candidate:
 def is_post(points: FloatArray) -> bool:
     """Whether (N, 3) points are of an upright round rod."""
     size = np.ptp(points, axis=0)
-    flat = points * [1.0, 1.0, 0.1]  # a rod is a disc that is drawn out
-    return bool(size[2] > 4 * size[:2].max() and round_axis(flat) == 2)
+    return bool(size[2] > 4 * size[:2].max()) and is_rod(points, 2)
 
 
 def _pins(panel: Box, hardware: Sequence[Box], axis: int, end: FloatArray) -> list[Box]:

@@ -33,6 +33,14 @@ def round_axis(points: FloatArray) -> int | None:
     return None
 
 
+def is_rod(points: FloatArray, axis: int) -> bool:
+    """Whether (N, 3) points are of something round along an axis, however long: a disc when pressed flat."""
+    size = np.ptp(points, axis=0)
+    scale = np.ones(3)
+    scale[axis] = 0.5 * np.delete(size, axis).min() / max(size[axis], 1e-30)
+    return round_axis(points * scale) == axis
+
+
 def wheels(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
     """Discs with a level axis that stand on the ground, at least two of a size, and all within them."""
     ground = scene.box.lower[2]
