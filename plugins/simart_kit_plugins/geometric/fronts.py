@@ -91,12 +91,14 @@ def find_fronts(scene: Scene, contacts: Contacts, facing: str) -> list[Front]:
     for piece, box in enumerate(boxes):
         if (box.size[:2] < SMALLEST).any() or (box.size >= SPANNING * whole.size).all():
             continue
-        inlays = _inlays(boxes, piece)
-        # Seen through an opening, it is a back wall, which has no handle.
         inner = box.upper[2] < whole.center[2]
-        if inner and not (thin(box) and _grips(contacts, boxes, piece, inlays)):
+        if inner and not thin(box):
             continue
-        if _seen(scene, axes, box, (piece, *inlays)) >= VISIBLE:
+        inlays = _inlays(boxes, piece)
+        if _seen(scene, axes, box, (piece, *inlays)) < VISIBLE:
+            continue
+        # Seen through an opening, it is a back wall, which has no handle.
+        if not inner or _grips(contacts, boxes, piece, inlays):
             found.append(_front(scene, contacts, facing, boxes, piece, inlays))
     return found
 
@@ -194,6 +196,7 @@ def _inlays(boxes: list[Box], piece: int) -> tuple[int, ...]:
 def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int, ...]) -> tuple[int, ...]:
     panel = boxes[piece]
     reach = 0.5 * (panel.lower[2] + panel.upper[2])
+    spindles = thin(panel)  # through which a handle may go; a deep box may have all kinds of things within
     found = [
         i
         for i, box in enumerate(boxes)
@@ -202,12 +205,12 @@ def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int
         and box.upper[2] > panel.upper[2] + 0.5 * TOUCH
         and box.upper[2] > reach
         and np.prod(box.size[:2]) < 0.25 * np.prod(panel.size[:2])
-        and box.upper[2] - panel.upper[2] < 0.5 * panel.size[:2].max()
+        and box.upper[2] - (panel.upper[2] if spindles else box.lower[2]) < 0.5 * panel.size[:2].max()
         and not _glazing_bar(box, panel)
     ]
     # What touches the panel is on it, and so is what touches that: a knob on its stem.
     on = {piece, *inlays}
-    if thin(panel):  # a deep box may have all kinds of things within
+    if spindles:
         on.update(i for i in found if meet(contacts, boxes, i, piece))
     grown = True
     while grown:
