@@ -208,7 +208,7 @@ class TestRoundThings:
 
     def test_knobs_in_a_row_turn(self) -> None:
         result = found(stove())
-        assert result.kinds == {f"knob_{n}": "continuous" for n in (1, 2, 3, 4)}
+        assert result.kinds == {f"knob_{n}": "revolute" for n in (1, 2, 3, 4)}
         for joint in result.joints:
             np.testing.assert_allclose(np.abs(joint.axis), (0, 1, 0), atol=1e-9)
 

@@ -19,6 +19,7 @@ from simart_kit.sweeping import Motion, Sweep
 from .candidates import Candidate, Choice, at_depth, hinges, slide, spin
 from .choice import SPINNING, Surroundings, edge_score, hinge_score, says, slide_score
 from .contact import Contacts
+from .control_joints import pressed, pulled, tilted, turned
 from .levers import LEVERS, levering, pierced, with_handle
 from .pivots import is_post, on_post, pivot
 from .rounds import round_axis
@@ -115,7 +116,11 @@ def _spinning(scene: Scene, view: View) -> Choice | None:
 _SPECIAL: tuple[tuple[tuple[str, ...], Callable[[Scene, View], Choice | None]], ...] = (
     (LEVERS, levering),
     (SASHES, sliding),
+    (("knob",), turned),
     (SPINNING, _spinning),
+    (("button", "touchpad", "squeeze"), pressed),
+    (("trigger",), pulled),
+    (("thumbstick",), tilted),
 )
 
 
@@ -132,7 +137,8 @@ def _joint(
     limits = None
     if candidate.kind == "revolute":
         closed = float(_closed(view, candidate))
-        limits = Limits(closed, max(open_angle + closed, 0.1))
+        travel = open_angle if candidate.edge else candidate.upper
+        limits = Limits(closed, max(travel + closed, 0.1))
     elif candidate.kind == "prismatic":
         limits = Limits(0.0, float(candidate.upper * scene.size))
     return Joint(

@@ -12,10 +12,11 @@ from simart_kit.arrays import frozen_ints
 from simart_kit.segments import Segments, find_segments
 
 from .contact import Contacts
+from .controls import hand_controls
 from .levers import with_levers
 from .movers import Mover, doubtful_movers, front_movers
 from .naming import names
-from .rounds import knobs, wheels
+from .rounds import collared, knobs, wheels
 from .scene import Scene, make_scene
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ Finder = Callable[[Scene, Contacts, Set[int]], list[Mover]]
 """Finds movers among the pieces that are not taken yet."""
 
 # After the fronts; each has what those before it left.
-_FINDERS: tuple[Finder, ...] = (wheels, knobs)
+_FINDERS: tuple[Finder, ...] = (wheels, knobs, collared)
 
 
 def parts_of(mesh: Mesh, spec: Spec | None, max_parts: int, crease: float, node_hint: bool) -> Segmentation:
@@ -65,7 +66,8 @@ def _find(scene: Scene, segments: Segments, spec: Spec | None) -> list[Mover]:
     if segments.count == 1 or (segments.patches and segments.count > _MOST_PIECES):
         return []
     contacts = Contacts(scene)
-    found = with_levers(scene, contacts, front_movers(scene, contacts, segments.patches))
+    fronts = with_levers(scene, contacts, front_movers(scene, contacts, segments.patches))
+    found = _apart(hand_controls(scene, contacts, set()), fronts)
     taken = {piece for mover in found for piece in mover.pieces}
     for finder in _FINDERS:
         for mover in finder(scene, contacts, taken):
@@ -77,6 +79,18 @@ def _find(scene: Scene, segments: Segments, spec: Spec | None) -> list[Mover]:
 
         found = chosen_movers(spec, scene, found, lambda: doubtful_movers(scene, contacts, taken))
     return sorted(found, key=lambda mover: -mover.score)
+
+
+def _apart(controls: list[Mover], fronts: list[Mover]) -> list[Mover]:
+    """Controls, and the fronts without any. One that sits on a front is its handle; several are controls."""
+    pressed = {piece for control in controls for piece in control.pieces}
+    fronts = [
+        front
+        for front in fronts
+        if front.pieces[0] not in pressed and len(pressed.intersection(front.pieces)) < 2
+    ]
+    carried = {piece for front in fronts for piece in front.pieces}
+    return [control for control in controls if not carried.intersection(control.pieces)] + fronts
 
 
 def _notes(segments: Segments, movers: list[Mover]) -> tuple[Note, ...]:

@@ -1,20 +1,22 @@
-"""Round things that spin: wheels that stand on the ground, and rows of knobs."""
+"""Round things: wheels that stand on the ground, knobs close together, and buttons in collars."""
 
 from __future__ import annotations
 
 from collections.abc import Set
-from itertools import pairwise
 
 import numpy as np
 
 from simart_kit.arrays import FloatArray
 
+from .caps import measure_cap, stacked_on
 from .contact import Contacts
 from .movers import Mover
 from .scene import Scene
 
 _ROUND = 0.03  # how far within the radius a corner still lies on the rim, as a share of it
 _LARGEST_GAP = np.deg2rad(50.0)  # between corners of the rim: an octagon is a coarse wheel, a hexagon a nut
+_TOGETHER = 4.0  # diameters from one knob to the next at most: those of drawers are farther apart
+_BUTTON = (0.008, 0.08)  # [m] width of a round button
 
 
 def round_axis(points: FloatArray) -> int | None:
@@ -64,25 +66,64 @@ def wheels(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
 
 
 def knobs(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
-    """Rows of three or more small discs alike that stick out of a front and are nobody's handle."""
-    rounds = []
+    """Three or more small discs alike, close together on one front, that are nobody's handle."""
+    groups: dict[tuple[float, float], list[int]] = {}
     for piece, box in enumerate(scene.boxes):
         if piece in taken or not 0.008 < box.size.max() < 0.08:
             continue
-        axis = round_axis(scene.triangles[scene.labels == piece].reshape(-1, 3))
-        if axis == 1:
-            rounds.append(
-                (round(float(box.center[2]), 2), round(float(box.size[2]), 3), float(box.center[0]), piece)
-            )
-    rows: dict[tuple[float, float], list[tuple[float, int]]] = {}
-    for height, diameter, place, piece in rounds:
-        rows.setdefault((height, diameter), []).append((place, piece))
-    movers = []
-    for row in rows.values():
-        apart = all(b[0] - a[0] > 0.01 for a, b in pairwise(sorted(row)))
-        if len(row) >= 3 and apart:
-            movers += [Mover((p,), "knob", 0.5, (f"one of {len(row)} discs alike in a row",)) for _, p in row]
+        if round_axis(scene.triangles[scene.labels == piece].reshape(-1, 3)) == 1:
+            key = (round(float(box.center[1]), 2), round(float(box.size[2]), 3))
+            groups.setdefault(key, []).append(piece)
+    movers: list[Mover] = []
+    used = set(taken).union(*groups.values())
+    for (_, diameter), group in groups.items():
+        places = np.array([scene.boxes[piece].center[[0, 2]] for piece in group])
+        apart = np.linalg.norm(places[:, None] - places, axis=2) + np.diag([np.inf] * len(group))
+        near = apart.min(axis=1)
+        if len(group) < 3 or (near < diameter).any() or (near > _TOGETHER * diameter).any():
+            continue
+        reason = (f"one of {len(group)} discs alike, close together",)
+        for piece in group:
+            cap = measure_cap(scene, (piece,))
+            on = stacked_on(scene, piece, cap, used) if cap is not None else ()
+            used.update(on)
+            movers.append(Mover((piece, *on), "knob", 0.5, reason))
     return movers
+
+
+def collared(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
+    """Plain round caps that stand in a collar of their own, on a front or on top: buttons."""
+    rounds: list[tuple[int, int]] = []
+    for piece, box in enumerate(scene.boxes):
+        wide = box.size.max() * scene.size
+        if piece not in taken and piece != scene.areas.argmax() and _BUTTON[0] < wide < 1.6 * _BUTTON[1]:
+            axis = round_axis(scene.triangles[scene.labels == piece].reshape(-1, 3))
+            if axis in (1, 2):
+                rounds.append((piece, axis))
+    movers = []
+    for piece, axis in rounds:
+        collars = [other for other, way in rounds if way == axis and _is_collar(scene, other, piece, axis)]
+        if len(collars) == 1 and scene.boxes[piece].size.max() * scene.size < _BUTTON[1]:
+            movers.append(Mover((piece,), "button", 0.6, ("a plain round cap in a collar of its own",)))
+    return movers
+
+
+def _is_collar(scene: Scene, other: int, piece: int, axis: int) -> bool:
+    """Whether a thinner disc lies around a round cap that stands out of it."""
+    collar, cap = scene.boxes[other], scene.boxes[piece]
+    across = np.delete(np.arange(3), axis)
+    wide = float(cap.size[across].max())
+    beside = np.abs(collar.center - cap.center)[across].max()
+    out = cap.lower[1] < collar.lower[1] if axis == 1 else cap.upper[2] > collar.upper[2]
+    ratio = collar.size[across].max() / wide
+    through = collar.lower[axis] > cap.lower[axis] if axis == 2 else collar.upper[axis] < cap.upper[axis]
+    return bool(
+        beside < 0.05 * wide
+        and 1.02 < ratio < 1.5
+        and out
+        and through
+        and collar.size[axis] < 0.5 * cap.size[axis]
+    )
 
 
 def _inside(scene: Scene, contacts: Contacts, wheel: int) -> list[int]:
