@@ -20,7 +20,7 @@ _PROUD = 0.0008  # [m] less is not felt: discs so flush are lights, screws and s
 _PAD = 0.025  # [m] wider than this, it is a dish for a thumb: round, and never high
 _STICK = (0.012, 0.028)  # [m] width of a thumbstick's cap
 _MOST_STICKS = 2  # one a thumb: more studs alike are screws or feet
-_FIELD, _PITCH = 12, 1.35  # more buttons than this, so close in widths, are a keyboard's keys: left alone
+_FIELD, _PITCH = 12, 1.35  # more caps alike than this, so close in widths, are a keyboard's keys: left
 _STANDS = 0.3  # of its width, how far a thumbstick stands above its well: buttons stand less
 _CURVED = (0.015, 0.04)  # [m] length of a trigger or of a squeeze: about one finger's, or two
 _COMPACT = 2.2  # length over width at most: longer is a seam, a strap or a stripe
@@ -59,13 +59,18 @@ def _alone(caps: dict[int, Cap], told: dict[int, _Said]) -> dict[int, _Said]:
     """Without thumbsticks where they are too many, and without the keys of a keyboard."""
     sticks = [piece for piece, (label, _) in told.items() if label == "thumbstick"]
     dropped = set(sticks) if len(sticks) > _MOST_STICKS else set()
-    buttons = [piece for piece, (label, _) in told.items() if label == "button"]
-    if len(buttons) > _FIELD:
-        places = np.array([caps[piece].top for piece in buttons])
-        apart = np.linalg.norm(places[:, None] - places, axis=2) + np.diag([np.inf] * len(buttons))
-        close = apart.min(axis=1) < _PITCH * np.array([caps[piece].wide for piece in buttons])
-        dropped.update(buttons if close.mean() > 0.5 else ())
+    dropped.update(piece for piece, (label, _) in told.items() if label == "button" and _is_key(caps, piece))
     return {piece: one for piece, one in told.items() if piece not in dropped}
+
+
+def _is_key(caps: dict[int, Cap], piece: int) -> bool:
+    """Whether it is one of many alike, side by side."""
+    wide = caps[piece].wide
+    alike = [cap.top for cap in caps.values() if abs(cap.wide - wide) < 0.1 * wide]
+    if len(alike) <= _FIELD:
+        return False
+    apart = np.linalg.norm(np.array(alike) - caps[piece].top, axis=1)
+    return bool(np.sort(apart)[1] < _PITCH * wide)
 
 
 def _sure_alone(caps: dict[int, Cap], one: tuple[int, _Said]) -> bool:

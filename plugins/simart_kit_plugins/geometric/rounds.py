@@ -16,6 +16,7 @@ from .scene import Scene
 _ROUND = 0.03  # how far within the radius a corner still lies on the rim, as a share of it
 _LARGEST_GAP = np.deg2rad(50.0)  # between corners of the rim: an octagon is a coarse wheel, a hexagon a nut
 _TOGETHER = 4.0  # diameters from one knob to the next at most: those of drawers are farther apart
+_CONCENTRIC = 0.05  # of its width, how far a cap's middle is from its collar's at most
 _BUTTON = (0.008, 0.08)  # [m] width of a round button
 
 
@@ -93,37 +94,31 @@ def knobs(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
 
 def collared(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
     """Plain round caps that stand in a collar of their own, on a front or on top: buttons."""
-    rounds: list[tuple[int, int]] = []
-    for piece, box in enumerate(scene.boxes):
-        wide = box.size.max() * scene.size
-        if piece not in taken and piece != scene.areas.argmax() and _BUTTON[0] < wide < 1.6 * _BUTTON[1]:
-            axis = round_axis(scene.triangles[scene.labels == piece].reshape(-1, 3))
-            if axis in (1, 2):
-                rounds.append((piece, axis))
+    body = int(scene.areas.argmax())
+    sizes = np.array([box.size.max() * scene.size for box in scene.boxes])
+    able = np.flatnonzero((sizes > _BUTTON[0]) & (sizes < 1.6 * _BUTTON[1]))
+    able = able[[piece not in taken and piece != body for piece in able]]
+    centers = np.array([box.center for box in scene.boxes])
+    reason = ("a plain round cap in a collar of its own",)
     movers = []
-    for piece, axis in rounds:
-        collars = [other for other, way in rounds if way == axis and _is_collar(scene, other, piece, axis)]
-        if len(collars) == 1 and scene.boxes[piece].size.max() * scene.size < _BUTTON[1]:
-            movers.append(Mover((piece,), "button", 0.6, ("a plain round cap in a collar of its own",)))
+    for piece in able[sizes[able] < _BUTTON[1]]:
+        wide = float(scene.boxes[piece].size.max())
+        beside = np.sort(np.abs(centers[able] - centers[piece]), axis=1)
+        near = able[(beside[:, 1] < _CONCENTRIC * wide) & (beside[:, 2] < wide) & (able != piece)]
+        if any(_is_collar(scene, int(other), int(piece)) for other in near):
+            movers.append(Mover((int(piece),), "button", 0.6, reason))
     return movers
 
 
-def _is_collar(scene: Scene, other: int, piece: int, axis: int) -> bool:
-    """Whether a thinner disc lies around a round cap that stands out of it."""
+def _is_collar(scene: Scene, other: int, piece: int) -> bool:
+    """Whether a thinner disc lies around a round cap that stands out of it, to the front or upward."""
+    axis = round_axis(scene.triangles[scene.labels == piece].reshape(-1, 3))
+    if axis not in (1, 2) or axis != round_axis(scene.triangles[scene.labels == other].reshape(-1, 3)):
+        return False
     collar, cap = scene.boxes[other], scene.boxes[piece]
-    across = np.delete(np.arange(3), axis)
-    wide = float(cap.size[across].max())
-    beside = np.abs(collar.center - cap.center)[across].max()
-    out = cap.lower[1] < collar.lower[1] if axis == 1 else cap.upper[2] > collar.upper[2]
-    ratio = collar.size[across].max() / wide
-    through = collar.lower[axis] > cap.lower[axis] if axis == 2 else collar.upper[axis] < cap.upper[axis]
-    return bool(
-        beside < 0.05 * wide
-        and 1.02 < ratio < 1.5
-        and out
-        and through
-        and collar.size[axis] < 0.5 * cap.size[axis]
-    )
+    ratio = np.delete(collar.size, axis).max() / np.delete(cap.size, axis).max()
+    passes = collar.lower[axis] > cap.lower[axis] and collar.upper[axis] < cap.upper[axis]
+    return bool(1.02 < ratio < 1.5 and passes and collar.size[axis] < 0.5 * cap.size[axis])
 
 
 def _inside(scene: Scene, contacts: Contacts, wheel: int) -> list[int]:
