@@ -31,7 +31,7 @@ class Mover:
 
     Attributes:
         pieces: their ids.
-        label: "door", "sliding_door", "drawer", "lid", "lever", "wheel" or "knob".
+        label: such as "door", "sliding_door", "drawer", "lid", "lever", "wheel" or "button".
         score: 0..1.
         evidence: why it moves, a phrase each.
     """
