@@ -24,6 +24,7 @@ class Candidate:
         origin: (3,) point on the axis.
         upper: travel to open [rad | share of the diagonal].
         edge: for a hinge, which edge: "left", "right", "bottom" or "top" as seen from outside.
+        closed: for a hinge, the angle at which what stands open is closed [rad], at most 0.
     """
 
     kind: JointKind
@@ -31,6 +32,7 @@ class Candidate:
     origin: FloatArray
     upper: float
     edge: str = ""
+    closed: float = 0.0
 
 
 Choice = tuple[Candidate, float, tuple[str, ...]]
@@ -70,4 +72,6 @@ def spin(axis: FloatArray, center: FloatArray) -> Candidate:
 def at_depth(candidate: Candidate, w: float) -> Candidate:
     """The same hinge, farther out or in."""
     origin = np.array([*candidate.origin[:2], w])
-    return Candidate(candidate.kind, candidate.axis, origin, candidate.upper, candidate.edge)
+    return Candidate(
+        candidate.kind, candidate.axis, origin, candidate.upper, candidate.edge, candidate.closed
+    )

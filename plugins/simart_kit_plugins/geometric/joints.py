@@ -17,10 +17,11 @@ from simart_kit.segments import find_segments
 from simart_kit.sweeping import Motion, Sweep
 
 from .candidates import Candidate, Choice, at_depth, hinges, slide, spin
-from .choice import SPINNING, Surroundings, edge_score, hinge_score, says, slide_score
+from .choice import SPINNING, STANDING_OPEN, Surroundings, edge_score, hinge_score, says, slide_score
 from .contact import Contacts
 from .control_joints import pressed, pulled, tilted, turned
 from .levers import LEVERS, levering, pierced, with_handle
+from .open_leaves import opened
 from .pivots import is_post, on_post, pivot
 from .rounds import round_axis
 from .sashes import SASHES, sliding
@@ -121,6 +122,7 @@ _SPECIAL: tuple[tuple[tuple[str, ...], Callable[[Scene, View], Choice | None]], 
     (("button", "touchpad", "squeeze"), pressed),
     (("trigger",), pulled),
     (("thumbstick",), tilted),
+    (STANDING_OPEN, opened),
 )
 
 
@@ -266,6 +268,8 @@ def _turning(hinge: Candidate) -> Motion:
 
 def _closed(view: View, hinge: Candidate) -> float:
     """Position at which a panel that stands ajar is closed [rad], at most 0."""
+    if hinge.closed:
+        return hinge.closed
     opened = {"left": -view.ajar, "right": view.ajar}.get(hinge.edge, 0.0)
     return -opened if opened > _SHUT else 0.0
 
