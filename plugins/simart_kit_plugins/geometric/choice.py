@@ -15,6 +15,7 @@ from .views import View
 SLIDING = ("drawer", "tray", "rack", "slide", "sliding", "button", "basket")
 HINGED = ("door", "lid", "flap", "cover", "hatch", "gate", "window", "hinge")
 STANDING_OPEN = (*HINGED, "screen", "display", "tailgate")
+RACKS = ("rack", "tray", "basket")
 SPINNING = ("wheel", "knob", "caster", "dial", "fan", "rotor")
 AJAR = np.deg2rad(1.0)
 

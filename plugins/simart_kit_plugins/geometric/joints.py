@@ -17,12 +17,13 @@ from simart_kit.segments import find_segments
 from simart_kit.sweeping import Motion, Sweep
 
 from .candidates import Candidate, Choice, at_depth, hinges, slide, spin
-from .choice import SPINNING, STANDING_OPEN, Surroundings, edge_score, hinge_score, says, slide_score
+from .choice import RACKS, SPINNING, STANDING_OPEN, Surroundings, edge_score, hinge_score, says, slide_score
 from .contact import Contacts
 from .control_joints import pressed, pulled, tilted, turned
 from .levers import LEVERS, levering, pierced, with_handle
 from .open_leaves import opened
 from .pivots import is_post, on_post, pivot
+from .racks import sliding_out
 from .rounds import round_axis
 from .sashes import SASHES, sliding
 from .scene import Box, Scene, make_scene
@@ -123,6 +124,7 @@ _SPECIAL: tuple[tuple[tuple[str, ...], Callable[[Scene, View], Choice | None]], 
     (("trigger",), pulled),
     (("thumbstick",), tilted),
     (STANDING_OPEN, opened),
+    (RACKS, sliding_out),
 )
 
 

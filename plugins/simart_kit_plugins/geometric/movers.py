@@ -31,7 +31,11 @@ class Mover:
 
     Attributes:
         pieces: their ids.
+    <<<<<<< HEAD
         label: such as "door", "sliding_door", "drawer", "lid", "lever", "wheel" or "button".
+    =======
+        label: "door", "drawer", "lid", "rack", "wheel" or "knob".
+    >>>>>>> a04da9a (Find racks of wire in cavities, which slide out of the front)
         score: 0..1.
         evidence: why it moves, a phrase each.
     """

@@ -155,7 +155,7 @@ def _closes_opening(scene: Scene, leaf: Leaf, own: IntArray) -> bool:
     )
     grid = middle + (steps * leaf.sizes) @ np.stack([leaf.axis, leaf.closed])
     before = grid + (leaf.thickness + 0.01) * leaf.outward
-    inward, outward = (_free_way(scene, before, sign * leaf.outward, own) for sign in (-1.0, 1.0))
+    inward, outward = (free_way(scene, before, sign * leaf.outward, own) for sign in (-1.0, 1.0))
     # Nothing stands before an opening that faces out: so it is told from compartments within.
     if np.isinf(outward).mean() < _OPEN:
         return False
@@ -179,7 +179,7 @@ def _walled(scene: Scene, leaf: Leaf, middle: FloatArray, own: IntArray) -> bool
         (-leaf.closed, leaf.sizes[1] / 2, leaf.axis * leaf.sizes[0]),
     ):
         starts = middle + np.linspace(-0.3, 0.3, 5)[:, None] * across
-        way = float(np.median(_free_way(scene, starts, direction, own)))
+        way = float(np.median(free_way(scene, starts, direction, own)))
         if abs(way - half) < _SAME * half:
             continue
         if direction is leaf.closed and abs(way - 3 * half) < 2 * _SAME * half:
@@ -199,10 +199,10 @@ def _stands_free(scene: Scene, leaf: Leaf, own: IntArray) -> bool:
     for sign in (1.0, -1.0):
         edge = sign * (leaf.sizes[0] / 2 - TOUCH) * leaf.axis
         starts.append((beside + edge, sign * leaf.axis))
-    return all((_free_way(scene, start, way, own) > _FREE).mean() > 0.5 for start, way in starts)
+    return all((free_way(scene, start, way, own) > _FREE).mean() > 0.5 for start, way in starts)
 
 
-def _free_way(scene: Scene, starts: FloatArray, direction: FloatArray, passing: IntArray) -> FloatArray:
+def free_way(scene: Scene, starts: FloatArray, direction: FloatArray, passing: IntArray) -> FloatArray:
     """(N,) way of rays until they meet something but the `passing` pieces; infinite for none."""
     origins, total = starts.copy(), np.zeros(len(starts))
     going = np.arange(len(starts))
