@@ -63,8 +63,11 @@ def open_leaves(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover
     for piece, box in enumerate(scene.boxes):
         if piece in taken or np.sort(box.size)[1] < _SMALLEST:
             continue
+        faces = scene.faces_of((piece,))
+        if next(_possible(scene, faces), None) is None:
+            continue  # no panel: what touches it need not be known
         pieces = (piece, *_mates(scene, contacts, piece, taken))
-        leaf = standing_open(scene, scene.faces_of((piece,)), np.array(pieces))
+        leaf = standing_open(scene, faces, np.array(pieces))
         if leaf is not None:
             told = f"stands open by {np.degrees(leaf.angle):.0f} degrees, and fits what it would close"
             label = "door" if abs(leaf.axis[2]) > 0.5 else "lid"

@@ -76,13 +76,16 @@ def _clusters(scene: Scene, contacts: Contacts, pieces: list[int], shell: int) -
     lower = np.array([scene.boxes[i].lower for i in pieces]) - _TOUCHES
     upper = np.array([scene.boxes[i].upper for i in pieces])
     near: BoolArray = np.all((lower[:, None] <= upper) & (lower <= upper[:, None]), axis=2)
-    near &= _wide_enough(scene, pieces, connected_components(near, directed=False)[1])
+    wide = _wide_enough(scene, pieces, connected_components(near, directed=False)[1])
+    near &= wide
     # Where the boxes of thin bars meet, so do the bars; and their corners may be far from where they cross.
     thin = np.sort(upper - lower, axis=1)[:, 1] < _THIN
     welded = near & thin & thin[:, None]
     for i, j in np.argwhere(np.triu(near & ~welded, 1)):
         welded[i, j] = welded[j, i] = contacts.gap(pieces[i], pieces[j]) <= _TOUCHES
-    held = np.array([contacts.gap(i, shell) <= _TOUCHES for i in pieces])
+    held = np.array(
+        [bool(w) and contacts.gap(i, shell) <= _TOUCHES for i, w in zip(pieces, wide, strict=True)]
+    )
     _, group = connected_components(welded & ~held & ~held[:, None], directed=False)
     clusters = [np.flatnonzero((group == one) & ~held) for one in np.unique(group)]
     clusters = [cluster for cluster in clusters if len(cluster) >= _WIRES]
@@ -97,7 +100,9 @@ def _wide_enough(scene: Scene, pieces: list[int], group: IntArray) -> BoolArray:
     wide = np.zeros(len(pieces), dtype=np.bool_)
     for one in np.flatnonzero(np.bincount(group) >= _WIRES):
         box = _around([scene.boxes[pieces[i]] for i in np.flatnonzero(group == one)])
-        wide[group == one] = (box.size[:2] > _NARROWEST * scene.box.size[:2]).all()
+        if (box.size[:2] > _NARROWEST * scene.box.size[:2]).all():
+            ways = [_way_to_wall(scene, box, FACINGS[name][2], np.array(pieces)) for name in _LEVEL]
+            wide[group == one] = np.isfinite(ways).sum() >= 3
     return wide
 
 
