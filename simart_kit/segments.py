@@ -68,7 +68,7 @@ def find_segments(
     """
     if vertex is None:
         vertex = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE)
-    corners = vertex.take(mesh.faces)
+    corners = vertex.astype(np.int32).take(mesh.faces)
     degenerate = _degenerate(mesh, corners)
     first = first_alike(corners)
     duplicate = (first != np.arange(len(corners))) & ~degenerate
@@ -103,8 +103,8 @@ def _pieces(
         crease: dihedral angle that bounds the patches of a fused component [rad].
         relief: whether a finely meshed one is cut into pieces instead.
     """
-    surface = _Surface(mesh, mesh.faces.take(kept, axis=0), mesh.face_areas.take(kept))
-    joints = _joints(*half_edges(corners), mesh.face_normals.take(kept, axis=0))
+    surface = _Surface(mesh, kept, mesh.face_areas.take(kept))
+    joints = _joints(corners, kept, mesh.face_normals)
     smooth = joints.patches(crease)
     sheets = joints.patches(np.pi, smooth)
     found = touching(corners, sheets)
@@ -113,6 +113,9 @@ def _pieces(
         inside = found == spanning
         found[inside] = found.max() + 1 + sheets[inside]
         spanning = surface.spanning(found)
+    else:  # what touches the largest and is closed is not of it
+        body = found == np.bincount(found, surface.areas, 1).argmax()
+        found = np.where(body & joints.closed(sheets), found.max(initial=-1) + 1 + sheets, found)
     if spanning is None or surface.share(found == spanning) < _FUSED_AREA:
         return found, False
     inside = found == spanning
@@ -120,8 +123,9 @@ def _pieces(
         pieces = relief_pieces(mesh, corners[inside], kept[inside])
     elif inside.all():
         pieces = smooth
-    else:
-        pieces = joints.among(inside).patches(crease, smooth)[inside]
+    else:  # edges that it shares with others are now its own
+        alone = _joints(corners[inside], kept[inside], mesh.face_normals)
+        pieces = alone.patches(crease, smooth[inside])
     found[inside] = found.max() + 1 + pieces
     return found, True
 
@@ -132,12 +136,12 @@ class _Surface:
 
     Attributes:
         mesh: theirs.
-        faces: (K, 3) vertex ids.
+        face_ids: (K,) of them.
         areas: (K,) in square units.
     """
 
     mesh: Mesh
-    faces: IntArray
+    face_ids: IntArray
     areas: FloatArray
 
     def spanning(self, labels: IntArray) -> int | None:
@@ -150,7 +154,7 @@ class _Surface:
         # Some of its faces often show that it does, in little time.
         for some in (inside[::_SOME], inside):
             used = np.zeros(len(self.mesh.vertices), dtype=np.bool_)
-            used[self.faces.take(some, axis=0)] = True
+            used[self.mesh.faces.take(self.face_ids.take(some), axis=0)] = True
             columns = self.mesh.vertices.compress(used, axis=0).T
             if (np.array([np.ptp(column) for column in columns]) >= _SPANNING * whole).all():
                 return largest
@@ -174,25 +178,23 @@ class _Joints:
     An edge with more than two faces, as where a board stands on another, bounds them all.
 
     Attributes:
-        half, edge: half-edges (3 * face + side) sorted by their edge.
-        normals: (F, 3) of the faces.
+        count: number of faces, F.
         left, right: (J,) the two faces of each joint.
         cosine: (J,) of the angle between their normals.
     """
 
-    half: IntArray
-    edge: IntArray
-    normals: FloatArray
+    count: int
     left: IntArray
     right: IntArray
     cosine: FloatArray
 
-    def among(self, inside: BoolArray) -> _Joints:
-        """The joints as if only (F,) some of the faces were there."""
-        if inside.all():
-            return self
-        used = inside[self.half // 3]
-        return _joints(self.half[used], self.edge[used], self.normals)
+    def closed(self, sheets: IntArray) -> BoolArray:
+        """(F,) whether the sheet of each face has no end: it touches others, but is a solid of its own."""
+        count = int(sheets.max(initial=-1)) + 1
+        if count < 2:
+            return np.zeros(self.count, dtype=np.bool_)
+        joined = np.bincount(sheets.take(self.left), minlength=count)
+        return np.asarray(2 * joined == 3 * np.bincount(sheets, minlength=count)).take(sheets)
 
     def patches(self, crease: float, known: IntArray | None = None) -> IntArray:
         """(F,) labels of faces connected across edges flatter than `crease` [rad].
@@ -203,16 +205,28 @@ class _Joints:
         """
         flat = self.cosine >= np.cos(crease)
         if known is None:
-            return connected(len(self.normals), self.left[flat], self.right[flat])
+            return connected(self.count, self.left[flat], self.right[flat])
+        if not known.any():
+            return known
         left, right = known.take(self.left), known.take(self.right)
         apart = flat & (left != right)
         return connected(int(known.max(initial=-1)) + 1, left[apart], right[apart]).take(known)
 
 
-def _joints(half: IntArray, edge: IntArray, normals: FloatArray) -> _Joints:
+def _joints(corners: IntArray, face_ids: IntArray, normals: FloatArray) -> _Joints:
+    """Those of (F, 3) faces, whose `face_ids` (F,) tell the unit `normals` that are theirs."""
+    left, right = _sharing(corners)
+    cosine = cosines(normals, face_ids.take(left), face_ids.take(right))
+    return _Joints(len(corners), left, right, cosine)
+
+
+def _sharing(corners: IntArray) -> tuple[IntArray, IntArray]:
+    """The two faces (J,) of each edge of (F, 3) faces that just two share."""
+    half, edge = half_edges(corners)
     first = shared_by_two(edge)
-    left, right = (half.take(at).astype(np.int32) // 3 for at in (first, first + 1))
-    return _Joints(half, edge, normals, left, right, cosines(normals, left, right))
+    face = half.astype(np.int32)
+    face //= 3
+    return face.take(first), face.take(first + 1)
 
 
 def _largest_beside(labels: IntArray, corners: IntArray, wanted: BoolArray, kept: IntArray) -> IntArray:

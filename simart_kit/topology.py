@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from .arrays import FloatArray, IntArray
+from .triangles import chunks
 
 
 def weld(vertices: FloatArray, tolerance: float) -> IntArray:
@@ -41,8 +42,8 @@ def unique_rows(rows: IntArray) -> tuple[IntArray, IntArray]:
         ordered = rows.take(order, axis=0)
         new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
     else:
-        order, ordered = stable_order(keys)
-        new[1:] = ordered[1:] != ordered[:-1]
+        order = _sort(keys)
+        new[1:] = keys[1:] != keys[:-1]
     ids = np.zeros(len(rows), dtype=np.int64)
     ids[order] = np.cumsum(new) - 1
     return order[new], ids
@@ -52,7 +53,11 @@ def first_alike(faces: IntArray) -> IntArray:
     """(F,) for each face the first one with the same three corners, in whatever order."""
     # Sums of random numbers tell nearly all of them apart; those that they do not are looked at.
     drawn = np.random.default_rng(0).integers(1 << 38, size=int(faces.max(initial=-1)) + 1)
-    order, mark = stable_order(sum(drawn.take(corner) for corner in np.ascontiguousarray(faces.T)))
+    a, b, c = np.ascontiguousarray(faces.T)
+    mark = drawn.take(a)
+    mark += drawn.take(b)
+    mark += drawn.take(c)
+    order = _sort(mark)
     same = np.zeros(len(faces) + 1, dtype=np.bool_)
     same[1:-1] = mark[1:] == mark[:-1]
     suspects = np.sort(order[same[1:] | same[:-1]])
@@ -79,24 +84,28 @@ def _row_keys(rows: IntArray) -> IntArray | None:
 
 
 def stable_order(keys: IntArray) -> tuple[IntArray, IntArray]:
-    """What sorts (N,) int64 keys 0.., equal ones staying in order, and the sorted keys.
+    """What sorts (N,) int64 keys 0.., equal ones staying in order, and the sorted keys."""
+    ordered = keys.copy()
+    return _sort(ordered), ordered
+
+
+def _sort(keys: IntArray) -> IntArray:
+    """Sort (N,) int64 keys 0.. in place, without more memory than it takes to tell (N,) what sorts them.
 
     Sorting numbers is several times as fast as finding an order: the index travels in the low bits.
     """
     bits = len(keys).bit_length()
     mask = (1 << bits) - 1
     if int(keys.max(initial=0)) < 1 << (63 - bits):
-        packed = keys << bits
-        packed |= np.arange(len(keys))
-        packed.sort()
-        order = packed & mask
-        packed >>= bits
-        return order, packed
+        keys <<= bits
+        keys |= np.arange(len(keys), dtype=np.uint32)
+        keys.sort()
+        order = keys & mask
+        keys >>= bits
+        return order
     order = np.argsort(keys)
-    ordered = keys.take(order)
-    group = np.zeros(len(keys), dtype=np.int64)
-    np.cumsum(ordered[1:] != ordered[:-1], out=group[1:])
-    return np.sort((group << bits) | order) & mask, ordered
+    keys[:] = keys.take(order)
+    return np.sort((_numbered(keys) << bits) | order) & mask
 
 
 def half_edges(faces: IntArray) -> tuple[IntArray, IntArray]:
@@ -105,15 +114,13 @@ def half_edges(faces: IntArray) -> tuple[IntArray, IntArray]:
     Edges have ascending numbers with gaps, whichever way they are walked.
     """
     count = int(faces.max(initial=0)) + 1
-    corners = np.ascontiguousarray(faces.T)
     keys = np.zeros((len(faces), 3), dtype=np.int64)
-    for side in range(3):
-        start, end = corners[side], corners[(side + 1) % 3]
-        low = np.minimum(start, end).astype(np.int64)
-        low *= count
-        low += np.maximum(start, end)
-        keys[:, side] = low
-    return stable_order(keys.ravel())
+    for some in chunks(len(faces)):
+        start = faces[some].astype(np.int64)
+        end = start[:, [1, 2, 0]]
+        keys[some] = np.minimum(start, end) * count + np.maximum(start, end)
+    edge: IntArray = keys.ravel()
+    return _sort(edge), edge
 
 
 def shared_by_two(edge: IntArray) -> IntArray:
@@ -169,6 +176,8 @@ def touching(faces: IntArray, pieces: IntArray | None = None) -> IntArray:
         faces: (F, 3).
         pieces: (F,) labels 0.. of faces that are known to hang together, which saves time.
     """
+    if pieces is not None and not pieces.any():
+        return pieces.copy()
     used, corners = without_gaps(faces)
     count = len(used)
     a, b, c = np.ascontiguousarray(corners.T)

@@ -61,9 +61,12 @@ class TestComponents:
         segments = find_segments(cabinet_mesh())
         assert same_partition(segments.face_segment, np.repeat(range(5), [60, 12, 12, 12, 12]))
 
-    def test_one_shared_vertex_joins(self) -> None:
+    @pytest.mark.parametrize(("open_by", "count"), [(0, 3), (1, 2)])
+    def test_one_shared_vertex_joins_sheets_but_not_solids(self, open_by: int, count: int) -> None:
         mesh = boxes_mesh([((0, 0, 0), (1, 1, 1)), ((1, 1, 1), (2, 2, 2)), ((5, 0, 0), (6, 1, 1))])
-        np.testing.assert_array_equal(find_segments(mesh).face_segment, np.repeat([0, 0, 1], 12))
+        sheets = np.concatenate([np.arange(12 * k, 12 * (k + 1) - open_by) for k in range(3)])
+        segments = find_segments(Mesh(mesh.vertices, mesh.faces[sheets]))
+        assert segments.count == count
 
     @pytest.mark.parametrize("noise", [0.0, 1e-7])
     def test_split_vertices_make_no_difference(self, noise: float) -> None:

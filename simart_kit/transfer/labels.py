@@ -84,18 +84,19 @@ def transfer(
             "find them on the same mesh"
         )
     known = _part_seeds(seeds, mesh, sigma)
-    place = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE) if segments is None else segments.vertex
-    vertex, points, faces = _welded(mesh, place)
     with ThreadPoolExecutor(1) as beside:
+        if mode == "segments":
+            beside.submit(lambda: mesh.face_areas)  # the mesh keeps them
+        place = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE) if segments is None else segments.vertex
+        vertex, points, faces = _welded(mesh, place)
         inner = beside.submit(inside_points, points, faces, known.sigma)
         likely = known.probabilities(points)  # of itself on all cores
-        # Neither needs the other: segments are found on one core while the seeds vote on another.
-        finding = None
-        if mode == "segments" and segments is None:
-            finding = beside.submit(find_segments, mesh, vertex=vertex)
         inside = inner.result()
-        likely, label, margin = _voted(known, likely, points, faces, inside, iterations)
-        segments = segments if finding is None else finding.result()
+        # Neither needs the other: the seeds vote on one core while segments are found on another.
+        voting = beside.submit(_voted, known, likely, points, faces, inside, iterations)
+        if mode == "segments" and segments is None:
+            segments = find_segments(mesh, vertex=vertex)
+        likely, label, margin = voting.result()
     if mode == "segments" and segments is not None:
         weight = mesh.face_areas * margin
         label = agree_in_segments(label, weight, segments.face_segment, known.count, agreement)
