@@ -31,11 +31,7 @@ class Mover:
 
     Attributes:
         pieces: their ids.
-    <<<<<<< HEAD
-        label: such as "door", "sliding_door", "drawer", "lid", "lever", "wheel" or "button".
-    =======
-        label: "door", "drawer", "lid", "rack", "wheel" or "knob".
-    >>>>>>> a04da9a (Find racks of wire in cavities, which slide out of the front)
+        label: such as "door", "sliding_door", "drawer", "lid", "rack", "lever", "wheel" or "button".
         score: 0..1.
         evidence: why it moves, a phrase each.
     """
@@ -148,7 +144,9 @@ def _opens_by_place(front: Front) -> bool:
     if front.share < LEAST_SHARE:
         return False
     if front.boxed:
-        return front.backed >= ENCLOSED and (bool(front.behind) or (front.hollow and front.walled >= 0.5))
+        return front.backed >= ENCLOSED and (
+            bool(front.behind) or (front.hollow and max(front.walled, front.framed) >= 0.5)
+        )
     return _is_panel(front) and _closes_cavity(front)
 
 

@@ -80,7 +80,15 @@ def _find(scene: Scene, segments: Segments, spec: Spec | None) -> list[Mover]:
         from .honouring import chosen_movers
 
         found = chosen_movers(spec, scene, found, lambda: doubtful_movers(scene, contacts, taken))
-    return sorted(found, key=lambda mover: -mover.score)
+    return sorted(_on_a_body(scene, found), key=lambda mover: -mover.score)
+
+
+def _on_a_body(scene: Scene, found: list[Mover]) -> list[Mover]:
+    """The movers, but for the largest if they leave nothing: something has to stand still."""
+    if len({piece for mover in found for piece in mover.pieces}) < scene.count:
+        return found
+    largest = max(found, key=lambda mover: float(scene.areas[list(mover.pieces)].sum()))
+    return [mover for mover in found if mover is not largest]
 
 
 def _apart(controls: list[Mover], fronts: list[Mover]) -> list[Mover]:
