@@ -125,6 +125,12 @@ class TestStuck:
         assert joint.limits.upper < np.radians(10)
 
 
+def test_a_joint_that_was_given_no_way_is_held_fixed() -> None:
+    result = Sweep().modify(assembled(slide(0, 0), [DOOR], [POST]))
+    assert result.joint("slide").kind == "fixed"
+    assert "sweep: prismatic blocked after 0.000 m" in result.joint("slide").flags[0]
+
+
 def test_what_a_part_carries_meets_walls_for_it() -> None:
     """A block, 0.4 deep, at the door's edge: sin + 0.4 cos is 0.5 at 5.9 degrees, the door's alone at 30."""
     block: Bounds = ((0.8, -0.4, 0.0), (1.0, 0.0, 1.0))

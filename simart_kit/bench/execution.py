@@ -28,7 +28,7 @@ TRAVEL_SECONDS = 1.0
 MOST_JOINTS = 64
 """Of more joints than these, as many are driven, evenly chosen."""
 _TIMESTEP = 0.0005, 0.002  # [s]; that of the file, within these
-_LEAST_RANGE = 1e-3  # [rad | m]: less is no movement
+_LEAST_RANGE = 1e-4  # [rad | m]: less is no movement; small buttons go tenths of a millimetre
 _CALM = 0.5  # speed of joints in the end [rad/s | m/s]
 _OVER = 0.02, 0.001  # how far a joint may stand over a limit: of its range, and [rad | m]
 

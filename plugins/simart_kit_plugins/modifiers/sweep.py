@@ -20,7 +20,7 @@ class Sweep(Modifier):
     """Shortens limits to what is free, so that no part goes through another; holds fixed what is stuck.
 
     A joint that comes no farther than a quarter of its way has the wrong axis, mostly: fixed and flagged it
-    harms nothing.
+    harms nothing. So is one that was given no way at all.
     What its own joint takes out of the way is no obstacle: a rack keeps its range behind a door, and a note.
     """
 
@@ -58,8 +58,8 @@ class Sweep(Modifier):
             wanted = joint.limits.upper - joint.limits.lower
             before = _range(joint, joint.limits.lower, joint.limits.upper)
             short = replace(joint, limits=simart_kit.Limits(free.lower, free.upper))
-            stops = free.travel < self.options.least * wanted
-            if stops and sinks(asset, joint, self.options.steps, self.seed):
+            stops = free.travel < self.options.least * wanted or wanted == 0
+            if stops and wanted and sinks(asset, joint, self.options.steps, self.seed):
                 told.append(f"{joint.child}: sinks into {joint.parent}, which has no hole for it")
                 continue
             if stops:
