@@ -13,7 +13,8 @@ from .kinematics import carried, rest_to_posed
 from .sweeping import Sweep, free_range, move
 
 _ENOUGH = 0.5  # of the wanted travel: what comes so far waits for nothing, and waiting has to yield it
-_SMALL = 0.1  # of the object's diagonal: buttons, keys and switches
+_SMALL, _HELD = 0.1, 0.3  # of the object's diagonal: buttons, keys and switches; triggers and grips
+_LITTLE, _TILT = 0.25, np.deg2rad(30.0)  # of its size that a larger thing is pressed, and how far one turns
 
 
 @dataclass(frozen=True)
@@ -66,8 +67,8 @@ def free_ranges(asset: Asset, steps: int, seed: int) -> dict[str, FreeRange]:
 def sinks(asset: Asset, joint: Joint, steps: int, seed: int) -> bool:
     """Whether a joint presses something small into the part that carries it, as a button without a hole.
 
-    It slides by less than its own length along its axis, is small beside the object, and nothing else is in
-    its way.
+    It is small beside the object, slides by less than its own length along its axis, or turns or slides by
+    little, as triggers and grips do; and nothing else is in its way.
 
     Args:
         asset: at rest.
@@ -75,12 +76,17 @@ def sinks(asset: Asset, joint: Joint, steps: int, seed: int) -> bool:
         steps: stops on the way to each limit.
         seed: of the sampling.
     """
-    if joint.kind != "prismatic":
+    if joint.kind not in ("prismatic", "revolute"):
         return False
     mesh, moving = asset.mesh, _faces(asset, joint.child)
     points = mesh.vertices[mesh.faces[moving]].reshape(-1, 3)
     along, size = np.ptp(points @ np.array(joint.axis)), np.linalg.norm(np.ptp(points, axis=0))
-    if _wanted(joint) > along or size > _SMALL * mesh.diagonal:
+    if joint.turns:
+        pressed = _wanted(joint) <= _TILT and size <= _HELD * mesh.diagonal
+    else:
+        most = along if size <= _SMALL * mesh.diagonal else _LITTLE * size
+        pressed = _wanted(joint) <= most and size <= _HELD * mesh.diagonal
+    if not pressed:
         return False
     carrier = asset.face_part == asset.part_index(joint.parent)
     return _swept(asset, joint, {}, carrier, steps, seed).travel == _wanted(joint)

@@ -143,6 +143,14 @@ class TestButton:
         assert joint.limits is not None
         assert joint.limits.upper < 0.5 * travel
 
+    @pytest.mark.parametrize(("degrees", "sinks"), [(20, True), (60, False)])
+    def test_a_trigger_turns_into_its_grip_by_little(self, degrees: float, sinks: bool) -> None:
+        limits = sk.Limits(0.0, np.radians(degrees))
+        joint = sk.Joint("pull", "revolute", "case", "trigger", (0, -0.1, 0.1), (1, 0, 0), limits)
+        trigger: Bounds = ((-0.05, -0.2, -0.2), (0.05, 0.0, 0.1))
+        asset = made({"case": [self.WALL], "trigger": [trigger]}, joint)
+        assert (Sweep().modify(asset).joints == (joint,)) == sinks
+
     def test_what_it_meets_besides_stops_it(self) -> None:
         asset = self.pressed(0.03)
         key: Bounds = ((-0.04, 0.005, -0.04), (0.04, 0.03, 0.04))
