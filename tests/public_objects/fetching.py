@@ -93,6 +93,8 @@ def _npm(source: Source, folder: Path) -> Path:
         with urllib.request.urlopen(url, timeout=_PATIENCE) as answer, (folder / stem).open("wb") as file:
             shutil.copyfileobj(answer, file)
     except (urllib.error.URLError, TimeoutError, ConnectionError) as error:
+        if isinstance(error, urllib.error.HTTPError):
+            error.close()  # it holds the connection
         raise BadInputError(f"cannot download {_told(source)} from {url}: {error}") from error
     return folder / stem
 
