@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from simart_kit.arrays import BoolArray, FloatArray, IntArray
+from simart_kit.arrays import BoolArray, FloatArray, IntArray, unit
 
 from .scene import Scene
 
@@ -68,7 +68,7 @@ def measure_cap(scene: Scene, pieces: Sequence[int]) -> Cap | None:
     outward = mean / facing
     upright = seen & (normals @ outward > _UPRIGHT)
     if upright.any():
-        outward = _unit(areas[upright] @ normals[upright])
+        outward = unit(areas[upright] @ normals[upright])
     outward = _flattest(scene, faces, outward)
     points = scene.triangles[faces].reshape(-1, 3)
     across = _across(points, outward)
@@ -162,7 +162,3 @@ def _surroundings(
     near = (face >= 0) & (distance < lift + _REACH * wide) & ~np.isin(scene.labels[face], pieces)
     drops = np.where(near, distance - lift, np.inf)
     return float(near.mean()), float(np.median(drops))
-
-
-def _unit(vector: FloatArray) -> FloatArray:
-    return np.asarray(vector / np.linalg.norm(vector))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence, Set
+
 import numpy as np
 
 from simart_kit.arrays import BoolArray, FloatArray, IntArray
@@ -62,6 +64,16 @@ class Contacts:
             near &= lower[:, axis] <= box.upper[axis] + self._reach
             near &= upper[:, axis] >= box.lower[axis] - self._reach
         return near
+
+
+def hanging_on(start: Set[int], among: Sequence[int], joined: Callable[[int, int], bool]) -> set[int]:
+    """The start, and those `among` pieces that are joined to it, or to what hangs on it."""
+    found, grown = set(start), True
+    while grown:
+        more = {i for i in among if i not in found and any(joined(i, j) for j in found)}
+        found |= more
+        grown = bool(more)
+    return found
 
 
 def smallest_distance(points: FloatArray, triangles: FloatArray, reach: float) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray
+from simart_kit.arrays import FloatArray, unit
 
 from .candidates import Candidate, Choice
 from .caps import measure_cap
@@ -19,6 +19,7 @@ _LEANS = 0.1  # of its outward direction, from which on it tells ahead from behi
 _TURNED = np.deg2rad(270.0)  # most knobs have stops
 _ROUNDED = 0.8  # width over length, of what is still round
 _SET = 0.7  # share of its rim beside which something lies, from which on a peg stands in something
+_AHEAD_ITSELF = 0.99  # of its outward direction, of a stick that points ahead: no axis of its own does
 _PLAIN = 0.5  # length of the mean normal, from which on a piece faces one way
 
 
@@ -52,9 +53,9 @@ def pulled(scene: Scene, view: View) -> Choice | None:
 def tilted(scene: Scene, view: View) -> Choice | None:
     """Sideways, about the foot of its stem: of its two axes the one that points ahead."""
     cap = measure_cap(scene, (view.part,))
-    if cap is None:
+    if cap is None or abs(cap.outward[1]) > _AHEAD_ITSELF:
         return None
-    ahead = _unit(np.array([0.0, 1.0, 0.0]) - cap.outward[1] * cap.outward)
+    ahead = unit(np.array([0.0, 1.0, 0.0]) - cap.outward[1] * cap.outward)
     foot = cap.top - cap.thick * cap.outward
     joint = Candidate("revolute", view.axes @ ahead, view.axes @ foot, _TILTED)
     return joint, 0.5, ("tilts about the foot of its stem",)
@@ -79,7 +80,3 @@ def _level_across(outward: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Level axes of a trigger: the one it turns about, and the one along which it faces."""
     along = 0 if abs(outward[0]) > max(abs(outward[1]), 0.5) else 1
     return np.eye(3)[1 - along], np.eye(3)[along]
-
-
-def _unit(vector: FloatArray) -> FloatArray:
-    return np.asarray(vector / np.linalg.norm(vector))

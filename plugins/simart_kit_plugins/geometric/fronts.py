@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from simart_kit.arrays import BoolArray, FloatArray
+from simart_kit.arrays import BoolArray, FloatArray, IntArray
 
-from .contact import Contacts
+from .casting import first_met
+from .contact import Contacts, hanging_on
 from .scene import FACINGS, Box, Scene
 
 # All lengths are shares of the object's diagonal.
@@ -212,16 +213,11 @@ def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int
     on = {piece, *inlays}
     if spindles:
         on.update(i for i in found if meet(contacts, boxes, i, piece))
-    grown = True
-    while grown:
-        more = [
-            i
-            for i in found
-            if i not in on
-            and any(contacts.gap(i, j) <= TOUCH or (j in found and meet(contacts, boxes, i, j)) for j in on)
-        ]
-        on.update(more)
-        grown = bool(more)
+
+    def joined(i: int, j: int) -> bool:
+        return contacts.gap(i, j) <= TOUCH or (j in found and meet(contacts, boxes, i, j))
+
+    on = hanging_on(on, found, joined)
     return tuple(i for i in found if i in on)
 
 
@@ -254,18 +250,12 @@ def _behind(contacts: Contacts, boxes: list[Box], piece: int, front: tuple[int, 
         for i, box in enumerate(boxes)
         if i not in (piece, *front) and _within(box, panel, 0.0) and box.upper[2] <= panel.upper[2] + TOUCH
     ]
-    hanging: set[int] = {piece}
-    grown = True
-    while grown:
-        more = [
-            i
-            for i in inside
-            if i not in hanging
-            and any(contacts.gap(i, j) <= HANGS for j in hanging)
-            and not _held(contacts, boxes, i, {piece, *front, *inside})
-        ]
-        hanging.update(more)
-        grown = bool(more)
+    own = {piece, *front, *inside}
+
+    def joined(i: int, j: int) -> bool:
+        return contacts.gap(i, j) <= HANGS and not _held(contacts, boxes, i, own)
+
+    hanging = hanging_on({piece}, inside, joined)
     return tuple(i for i in inside if i in hanging)
 
 
@@ -288,9 +278,7 @@ def _drawer_box(
     scene: Scene, axes: FloatArray, boxes: list[Box], piece: int, behind: tuple[int, ...]
 ) -> bool:
     """Whether what hangs behind fills the front's rectangle fairly, and is closed when seen from below."""
-    inner = Box(
-        np.min([boxes[i].lower for i in behind], axis=0), np.max([boxes[i].upper for i in behind], axis=0)
-    )
+    inner = Box.around([boxes[i] for i in behind])
     if (inner.size[:2] < (0.6, 0.3) * boxes[piece].size[:2]).any():
         return False
     below = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # (u, v, w) -> across, depth, downward
@@ -319,7 +307,7 @@ def _seen(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> flo
     return float((np.isin(labels, own) | on_top & _small(scene, labels, box)).mean())
 
 
-def _small(scene: Scene, labels: FloatArray, box: Box) -> BoolArray:
+def _small(scene: Scene, labels: IntArray, box: Box) -> BoolArray:
     areas = np.append(scene.areas, 0.0)
     return np.asarray(areas[labels] < 0.5 * np.prod(box.size[:2]))
 
@@ -357,24 +345,6 @@ def _beside(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> t
 
 def cast(
     scene: Scene, axes: FloatArray, origins: FloatArray, direction: FloatArray, passing: tuple[int, ...] = ()
-) -> tuple[FloatArray, FloatArray]:
-    """Piece met first by rays given in (u, v, w), and how far; pieces in `passing` are passed through."""
-    origins = origins @ axes
-    direction = direction @ axes
-    labels = np.full(len(origins), -1)
-    total = np.zeros(len(origins))
-    open_rays = np.arange(len(origins))
-    for _ in range(16):
-        faces, distance = scene.rays.first(origins[open_rays], direction)
-        piece = np.where(faces >= 0, scene.labels[faces], -1)
-        total[open_rays] += distance
-        labels[open_rays] = piece
-        again = np.isin(piece, passing) & (piece >= 0)
-        if not again.any():
-            break
-        labels[open_rays[again]] = -1
-        step = distance[again] + 1e-4
-        total[open_rays[again]] += 1e-4
-        open_rays = open_rays[again]
-        origins[open_rays] += step[:, None] * direction
-    return labels, total
+) -> tuple[IntArray, FloatArray]:
+    """As `first_met`, for rays given in (u, v, w)."""
+    return first_met(scene, origins @ axes, direction @ axes, passing)

@@ -10,7 +10,7 @@ import numpy as np
 from simart_kit.arrays import FloatArray
 
 from .candidates import Candidate, Choice
-from .contact import Contacts
+from .contact import Contacts, hanging_on
 from .fronts import meet
 from .movers import Mover
 from .rounds import is_rod
@@ -84,11 +84,7 @@ def _lever(scene: Scene, contacts: Contacts, door: tuple[int, ...]) -> tuple[int
         if (box.lower[normal] > leaf.upper[normal] or box.upper[normal] < leaf.lower[normal])
         and box.size.max() < 0.5 * leaf.size.max()
     ]
-    lever, grown = set(spindles), True
-    while grown:
-        more = {i for i in outside if any(meet(contacts, scene.boxes, i, j) for j in lever)} - lever
-        lever |= more
-        grown = bool(more)
+    lever = hanging_on(set(spindles), outside, lambda i, j: meet(contacts, scene.boxes, i, j))
     return tuple(sorted(lever))
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from simart_kit.arrays import FloatArray
 
 from .movers import Mover
-from .scene import Scene
+from .scene import Box, Scene
 
 
 def names(scene: Scene, movers: Sequence[Mover]) -> list[str]:
@@ -31,11 +31,7 @@ def names(scene: Scene, movers: Sequence[Mover]) -> list[str]:
 
 
 def _center(scene: Scene, mover: Mover) -> FloatArray:
-    boxes = [scene.boxes[i] for i in mover.pieces]
-    middle: FloatArray = (
-        np.min([b.lower for b in boxes], axis=0) + np.max([b.upper for b in boxes], axis=0)
-    ) / 2
-    return middle
+    return Box.around([scene.boxes[i] for i in mover.pieces]).center
 
 
 def _sides(a: FloatArray, b: FloatArray) -> tuple[str, str]:

@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray, IntArray
+from simart_kit.arrays import FloatArray, IntArray, unit
 
 from .candidates import Candidate, Choice
-from .contact import Contacts
+from .casting import first_met
+from .contact import Contacts, hanging_on
 from .fronts import TOUCH
 from .movers import SHALLOWEST, Mover
 from .scene import Scene
@@ -128,7 +129,7 @@ def _possible(scene: Scene, panel: IntArray) -> Iterator[Leaf]:
                 angle = float(np.arccos(np.clip(far @ closed, -1, 1)))
                 if abs(closed @ axis) > 0.5 or not _LEAST_OPEN <= angle <= _MOST_OPEN:
                     continue
-                outward = _unit(far - (far @ closed) * closed)
+                outward = unit(far - (far @ closed) * closed)
                 turn = np.cross(closed, outward)
                 yield Leaf(turn, hinge, far, closed, outward, sizes, float(np.ptp(thickness)), angle)
 
@@ -158,7 +159,7 @@ def _closes_opening(scene: Scene, leaf: Leaf, own: IntArray) -> bool:
     )
     grid = middle + (steps * leaf.sizes) @ np.stack([leaf.axis, leaf.closed])
     before = grid + (leaf.thickness + 0.01) * leaf.outward
-    inward, outward = (free_way(scene, before, sign * leaf.outward, own) for sign in (-1.0, 1.0))
+    inward, outward = (first_met(scene, before, sign * leaf.outward, own)[1] for sign in (-1.0, 1.0))
     # Nothing stands before an opening that faces out: so it is told from compartments within.
     if np.isinf(outward).mean() < _OPEN:
         return False
@@ -182,7 +183,7 @@ def _walled(scene: Scene, leaf: Leaf, middle: FloatArray, own: IntArray) -> bool
         (-leaf.closed, leaf.sizes[1] / 2, leaf.axis * leaf.sizes[0]),
     ):
         starts = middle + np.linspace(-0.3, 0.3, 5)[:, None] * across
-        way = float(np.median(free_way(scene, starts, direction, own)))
+        way = float(np.median(first_met(scene, starts, direction, own)[1]))
         if abs(way - half) < _SAME * half:
             continue
         if direction is leaf.closed and abs(way - 3 * half) < 2 * _SAME * half:
@@ -202,24 +203,7 @@ def _stands_free(scene: Scene, leaf: Leaf, own: IntArray) -> bool:
     for sign in (1.0, -1.0):
         edge = sign * (leaf.sizes[0] / 2 - TOUCH) * leaf.axis
         starts.append((beside + edge, sign * leaf.axis))
-    return all((free_way(scene, start, way, own) > _FREE).mean() > 0.5 for start, way in starts)
-
-
-def free_way(scene: Scene, starts: FloatArray, direction: FloatArray, passing: IntArray) -> FloatArray:
-    """(N,) way of rays until they meet something but the `passing` pieces; infinite for none."""
-    origins, total = starts.copy(), np.zeros(len(starts))
-    going = np.arange(len(starts))
-    for _ in range(16):
-        faces, distance = scene.rays.first(origins[going], direction)
-        total[going] += np.where(faces >= 0, distance, np.inf)
-        again = (faces >= 0) & np.isin(scene.labels[faces], passing)
-        if not again.any():
-            break
-        step = distance[again] + 1e-4
-        total[going[again]] += 1e-4
-        going = going[again]
-        origins[going] += step[:, None] * direction
-    return total
+    return all((first_met(scene, start, way, own)[1] > _FREE).mean() > 0.5 for start, way in starts)
 
 
 def _mates(scene: Scene, contacts: Contacts, piece: int, taken: Set[int]) -> list[int]:
@@ -234,12 +218,7 @@ def _mates(scene: Scene, contacts: Contacts, piece: int, taken: Set[int]) -> lis
         and (box.lower >= panel.lower - 0.05).all()
         and (box.upper <= panel.upper + 0.05).all()
     ]
-    on = {piece}
-    grown = True
-    while grown:
-        more = [i for i in near if i not in on and any(contacts.gap(i, j) <= TOUCH for j in on)]
-        on.update(more)
-        grown = bool(more)
+    on = hanging_on({piece}, near, lambda i, j: contacts.gap(i, j) <= TOUCH)
     return [i for i in near if i in on]
 
 
@@ -249,7 +228,3 @@ def _extent(values: FloatArray, weights: FloatArray) -> FloatArray:
     share = np.cumsum(weights[order]) / weights.sum()
     first, last = np.searchsorted(share, [_OUTLIERS, 1 - _OUTLIERS])
     return values[order[[first, min(last, len(order) - 1)]]]
-
-
-def _unit(vector: FloatArray) -> FloatArray:
-    return np.asarray(vector / np.linalg.norm(vector))

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
+from collections.abc import Set
 
 import numpy as np
 
 from simart_kit.arrays import BoolArray, FloatArray, IntArray
 
 from .candidates import Candidate, Choice
+from .casting import first_met
 from .contact import Contacts
 from .movers import Mover
-from .open_leaves import free_way
 from .scene import FACINGS, Box, Scene
 from .views import View
 
@@ -36,7 +36,7 @@ def racks(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
     passing = np.array([*inside, *taken])
     movers = []
     for pieces in _clusters(scene, contacts, inside, shell):
-        box = _around([scene.boxes[i] for i in pieces])
+        box = Box.around([scene.boxes[i] for i in pieces])
         low = box.size[2] < _HIGHEST * scene.box.size[2]
         if low and _seen_through(scene, box) and _in_cavity(scene, box, passing):
             told = f"{len(pieces)} wires that fill the width of a cavity"
@@ -99,7 +99,7 @@ def _wide_enough(scene: Scene, pieces: list[int], group: IntArray) -> BoolArray:
     """(N,) whose group of near pieces could hold a rack; distances are worked out for no others."""
     wide = np.zeros(len(pieces), dtype=np.bool_)
     for one in np.flatnonzero(np.bincount(group) >= _WIRES):
-        box = _around([scene.boxes[pieces[i]] for i in np.flatnonzero(group == one)])
+        box = Box.around([scene.boxes[pieces[i]] for i in np.flatnonzero(group == one)])
         if (box.size[:2] > _NARROWEST * scene.box.size[:2]).all():
             ways = [_way_to_wall(scene, box, FACINGS[name][2], np.array(pieces)) for name in _LEVEL]
             wide[group == one] = np.isfinite(ways).sum() >= 3
@@ -108,7 +108,7 @@ def _wide_enough(scene: Scene, pieces: list[int], group: IntArray) -> BoolArray:
 
 def _leaning(boxes: list[Box], cluster: IntArray, held: BoolArray) -> list[int]:
     """Those that touch the shell and lie within a cluster: wires that lean on a wall, not the pipe behind."""
-    around = _around([boxes[i] for i in cluster])
+    around = Box.around([boxes[i] for i in cluster])
     return [
         int(i)
         for i in np.flatnonzero(held)
@@ -130,7 +130,7 @@ def _way_to_wall(scene: Scene, box: Box, direction: FloatArray, passing: IntArra
     across = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
     offset = np.zeros((len(across), 3))
     offset[:, np.abs(direction) < 0.5] = across
-    return float(np.median(free_way(scene, box.center + offset * box.size, direction, passing))) / half
+    return float(np.median(first_met(scene, box.center + offset * box.size, direction, passing)[1])) / half
 
 
 def _seen_through(scene: Scene, box: Box) -> bool:
@@ -139,7 +139,3 @@ def _seen_through(scene: Scene, box: Box) -> bool:
     points = np.column_stack([box.lower[:2] + grid * box.size[:2], np.full(len(grid), box.upper[2] + 1e-3)])
     _, way = scene.rays.first(points, np.array([0.0, 0.0, -1.0]))
     return bool((way > box.size[2]).mean() > _SEEN_THROUGH)
-
-
-def _around(boxes: Sequence[Box]) -> Box:
-    return Box(np.min([b.lower for b in boxes], axis=0), np.max([b.upper for b in boxes], axis=0))

@@ -42,8 +42,7 @@ def slides_over(scene: Scene, front: Front) -> bool:
     if front.facing == "top" or front.boxed or not front.handles:
         return False
     axes, box = FACINGS[front.facing], front.box
-    grips = [scene.boxes[i].turned(axes) for i in front.handles]
-    size = np.max([grip.upper for grip in grips], axis=0) - np.min([grip.lower for grip in grips], axis=0)
+    size = Box.around([scene.boxes[i].turned(axes) for i in front.handles]).size
     place = 2 * (front.handles_middle - box.center)[0] / box.size[0]
     left, right = (_room(scene, axes, front, sign) for sign in (-1.0, 1.0))
     return bool(left != right and size[1] > size[0] and (place if right else -place) < _INNER)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -35,6 +36,11 @@ class Box:
 
     lower: FloatArray
     upper: FloatArray
+
+    @classmethod
+    def around(cls, boxes: Sequence[Box]) -> Box:
+        """The box of some boxes, of one at least."""
+        return cls(np.min([box.lower for box in boxes], axis=0), np.max([box.upper for box in boxes], axis=0))
 
     @property
     def size(self) -> FloatArray:

@@ -1,0 +1,43 @@
+"""Rays through a scene that pass through some of its pieces."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from simart_kit.arrays import FloatArray, IntArray
+
+from .scene import Scene
+
+_MOST = 16  # pieces on a ray's way that are passed through
+_BEYOND = 1e-4  # a ray goes on so far behind what it passes through
+
+
+def first_met(
+    scene: Scene, origins: FloatArray, direction: FloatArray, passing: Sequence[int] | IntArray = ()
+) -> tuple[IntArray, FloatArray]:
+    """(N,) piece that each ray meets first, -1 for none, and (N,) how far it is, infinite for none.
+
+    Args:
+        scene: the pieces.
+        origins: (N, 3) in the aligned frame.
+        direction: (3,) unit.
+        passing: pieces that rays pass through.
+    """
+    origins = origins.copy()
+    labels, total = np.full(len(origins), -1), np.zeros(len(origins))
+    going = np.arange(len(origins))
+    for _ in range(_MOST):
+        faces, distance = scene.rays.first(origins[going], direction)
+        piece = np.where(faces >= 0, scene.labels[faces], -1)
+        total[going] += distance
+        labels[going] = piece
+        again = np.isin(piece, passing) & (piece >= 0)
+        if not again.any():
+            break
+        labels[going[again]] = -1
+        total[going[again]] += _BEYOND
+        going = going[again]
+        origins[going] += (distance[again] + _BEYOND)[:, None] * direction
+    return labels, total
