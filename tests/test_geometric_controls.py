@@ -84,6 +84,15 @@ class TestHandHeld:
     def test_a_knob_on_a_box_is_no_stick(self) -> None:
         assert "thumbstick" not in found(joined(boxes_mesh(BODY), stick(0.0, 0.0))).kinds
 
+    def test_keys_of_many_widths_in_rows_are_a_keyboards(self) -> None:
+        keys = [
+            box((x, x + 0.005), (y, y + wide), (0.039, 0.042))
+            for x in (-0.024, -0.011, 0.002, 0.015)
+            for y, wide in zip(np.arange(11) * 0.0145 - 0.078, np.linspace(0.006, 0.008, 11), strict=True)
+        ]
+        assert set(found([*BODY, *keys[:26:6]]).kinds.values()) == {"prismatic"}
+        assert not found([*BODY, *keys]).joints
+
     def test_flush_discs_are_no_buttons(self) -> None:
         flush = with_discs(BODY, [(0.0, y, 0.0379) for y in (0.0, 0.03)], 0.005, 0.005, 2)
         assert not found(flush).joints

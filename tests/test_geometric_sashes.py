@@ -58,6 +58,14 @@ class TestSliding:
         for name, way in (("left_sliding_door", 1), ("right_sliding_door", -1)):
             np.testing.assert_allclose(result.joint(name).axis, [way, 0, 0], atol=1e-9)
 
+    def test_of_two_above_each_other_the_lower_one_slides_up(self) -> None:
+        lower = box((-0.595, 0.595), (-0.03, -0.005), (0.055, 1.02))
+        upper = box((-0.595, 0.595), (0.005, 0.03), (0.98, 1.945))
+        result = found([*FRAME, lower, upper])
+        assert result.kinds == {"sliding_door": "prismatic"}
+        np.testing.assert_allclose(result.joint("sliding_door").axis, [0, 0, 1], atol=1e-9)
+        assert result.mesh.triangles[result.faces("sliding_door")][..., 2].max() < 1.03
+
     def test_a_panel_over_one_half_of_a_body_slides_over_the_other(self) -> None:
         front = panel((-0.59, 0.0), -0.225, (0.01, 0.79))
         joint = found([*HALF, front, bar(-0.55, 0.4, -0.225)]).joint("sliding_door")

@@ -21,6 +21,7 @@ _PAD = 0.025  # [m] wider than this, it is a dish for a thumb: round, and never 
 _STICK = (0.012, 0.028)  # [m] width of a thumbstick's cap
 _MOST_STICKS = 2  # one a thumb: more studs alike are screws or feet
 _FIELD, _PITCH = 12, 1.35  # more caps alike than this, so close in widths, are a keyboard's keys: left
+_LEVEL = 40  # so are those among more caps than this that face the same way at one height, of any width
 _STANDS = 0.3  # of its width, how far a thumbstick stands above its well: buttons stand less
 _CURVED = (0.015, 0.04)  # [m] length of a trigger or of a squeeze: about one finger's, or two
 _COMPACT = 2.2  # length over width at most: longer is a seam, a strap or a stripe
@@ -64,12 +65,15 @@ def _alone(caps: dict[int, Cap], told: dict[int, _Said]) -> dict[int, _Said]:
 
 
 def _is_key(caps: dict[int, Cap], piece: int) -> bool:
-    """Whether it is one of many alike, side by side."""
-    wide = caps[piece].wide
+    """Whether it is one of many alike, side by side, or of very many at one height."""
+    own, wide = caps[piece], caps[piece].wide
+    heights = [(cap.top - own.top) @ own.outward for cap in caps.values() if cap.outward @ own.outward > 0.95]
+    if (np.abs(heights) < 0.2 * wide).sum() > _LEVEL:
+        return True
     alike = [cap.top for cap in caps.values() if abs(cap.wide - wide) < 0.1 * wide]
     if len(alike) <= _FIELD:
         return False
-    apart = np.linalg.norm(np.array(alike) - caps[piece].top, axis=1)
+    apart = np.linalg.norm(np.array(alike) - own.top, axis=1)
     return bool(np.sort(apart)[1] < _PITCH * wide)
 
 

@@ -23,14 +23,20 @@ _CLOSES = -0.005  # diagonals by which the edges of two leaves may miss each oth
 _ROOM = 0.9  # share of its width that a panel needs beside itself
 _INNER = 0.3  # from the middle to the edge, where a handle is on the side of the room
 _STOPS = 20
+_UP = 2  # axis of the aligned frame
 
 
 def passing(scene: Scene, fronts: Sequence[Front]) -> set[int]:
-    """Panels of leaves alike, side by side in two tracks: where they meet, one overlaps the other."""
+    """Panels of leaves alike, side by side in two tracks: where they meet, one overlaps the other.
+
+    Of one above the other only the lower one: the upper sash of most windows is fixed, or kept shut.
+    """
     found: set[int] = set()
     for one, other in combinations(fronts, 2):
-        if alike(scene, one, other) and _two_tracks(scene, one, other):
-            found.update((one.piece, other.piece))
+        along = _two_tracks(scene, one, other) if alike(scene, one, other) else None
+        pair = sorted((one.piece, other.piece), key=lambda piece: float(scene.boxes[piece].center[2]))
+        if along is not None:
+            found.update(pair[:1] if along == _UP else pair)
     return found
 
 
@@ -82,18 +88,19 @@ def _towards_the_middle(view: View) -> Choice:
     return candidate, 0.4, ("slides to where the body goes on",)
 
 
-def _two_tracks(scene: Scene, one: Front, other: Front) -> bool:
+def _two_tracks(scene: Scene, one: Front, other: Front) -> int | None:
+    """The axis along which two leaves follow each other in two tracks; None where they do not."""
     a, b = scene.boxes[one.piece], scene.boxes[other.piece]
     normal, *within = same_plane_axes(one)
     thickness = min(a.size[normal], b.size[normal])
     apart = -_shared(a, b, normal)
     if not -_APART * thickness <= apart <= thickness + _NEAR:
-        return False
+        return None
     for along, across in (within, within[::-1]):
         level = _shared(a, b, across) > 0.95 * a.size[across]
         if level and _CLOSES <= _shared(a, b, along) < 0.5 * a.size[along]:
-            return True
-    return False
+            return along
+    return None
 
 
 def _shared(a: Box, b: Box, axis: int) -> float:
