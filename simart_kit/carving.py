@@ -8,11 +8,14 @@ import numpy as np
 
 from .arrays import FloatArray
 from .asset import Asset, ConvexMesh
-from .convex_overlap import Convex, gap
+from .convex_overlap import convex, gap, meets
 from .fitting import box_around, fitted
 from .hulls import hull_of, volume
 from .separation import CLEARANCE, TOLERANCE, overlaps, replaced
 from .triangles import areas, unit_normals
+
+WORK = 200
+"""Shapes that may be cut out of others in all, as often as they are: what bounds the time."""
 
 _MOST_PLANES = 10  # of what is cut out; rounder shapes are cut out as their box
 _THIN = 0.001  # [m] along a cut below which a piece is dropped
@@ -23,7 +26,7 @@ _MORE = 48  # shapes that a part may have more for this
 _SHORTER = 0.05  # of the object's diagonal that a part's box may lose on a side
 
 
-def carved_apart(asset: Asset) -> Asset:
+def carved_apart(asset: Asset, work: int = WORK) -> Asset:
     """The asset without overlaps at rest: of two parts the one gives way that loses the smaller share.
 
     It is cut along the planes of the other's shapes; one that would get very many of them stays as it is, and
@@ -31,13 +34,18 @@ def carved_apart(asset: Asset) -> Asset:
 
     Args:
         asset: with collision shapes.
+        work: see `WORK`; pairs that come after it is done stay as they are.
     """
     shapes = {part.name: list(part.collision) for part in asset.parts}
     most = {name: len(row) + _MORE for name, row in shapes.items()}
     ends = {name: _ends(row) for name, row in shapes.items() if row}
     for overlap in overlaps(asset):
+        if work <= 0:
+            break
         pairs = (overlap.one, overlap.other), (overlap.other, overlap.one)
-        made = {giver: _without(shapes[giver], shapes[taker], most[giver]) for giver, taker in pairs}
+        tried = {giver: _without(shapes[giver], shapes[taker], most[giver]) for giver, taker in pairs}
+        work -= sum(spent for _, spent in tried.values())
+        made = {giver: row for giver, (row, _) in tried.items()}
         kept = {
             name: _volume(row) / max(_volume(shapes[name]), 1e-12)
             for name, row in made.items()
@@ -78,7 +86,7 @@ def _around(shape: ConvexMesh, normals: FloatArray, ends: FloatArray) -> list[Co
     """What lies beyond any of some planes, cut off where most stands out first."""
     pieces, rest, open_planes = list[ConvexMesh](), shape, list(range(len(ends)))
     while open_planes:
-        reach = [float(Convex(rest).extent(normals[[k]])[1][0]) - ends[k] for k in open_planes]
+        reach = [float(convex(rest).extent(normals[[k]])[1][0]) - ends[k] for k in open_planes]
         plane = open_planes.pop(int(np.argmax(reach)))
         if max(reach) <= 0:
             break  # what is left lies inside
@@ -102,21 +110,20 @@ def _volume(shapes: Sequence[ConvexMesh]) -> float:
     return sum(map(volume, shapes))
 
 
-def _without(shapes: Sequence[ConvexMesh], taker: Sequence[ConvexMesh], most: int) -> list[ConvexMesh]:
-    """The shapes with another part's cut out; where they are already many, they stay."""
-    made = [Convex(shape) for shape in shapes]
-    for other in map(Convex, taker):
-        row = list[Convex]()
-        for one in made:
-            cut = len(made) < most and _overlap(one, other)
-            row += map(Convex, carved(one.shape, other.shape)) if cut else [one]
-        made = row
-    return [one.shape for one in made]
-
-
-def _overlap(one: Convex, other: Convex) -> bool:
-    beside = one.bounds[0] >= other.bounds[1], other.bounds[0] >= one.bounds[1]
-    return not np.any(beside) and -gap(one, other)[0] > TOLERANCE
+def _without(
+    shapes: Sequence[ConvexMesh], taker: Sequence[ConvexMesh], most: int
+) -> tuple[list[ConvexMesh], int]:
+    """The shapes with another part's cut out, and how often one was; very many stay as they are."""
+    made, spent = list(shapes), 0
+    for other in map(convex, taker):
+        if len(made) >= most:
+            break
+        near = meets(other, np.array([convex(one).bounds for one in made]).reshape(-1, 2, 3)).tolist()
+        met = [k for k in near if -gap(convex(made[k]), other)[0] > TOLERANCE]
+        for k in reversed(met):
+            made[k : k + 1] = carved(made[k], other.shape)
+        spent += len(met)
+    return made, spent
 
 
 def _planes(shape: ConvexMesh) -> tuple[FloatArray, FloatArray]:

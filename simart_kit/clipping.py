@@ -6,7 +6,7 @@ import numpy as np
 
 from .arrays import FloatArray, vec3
 from .asset import ConvexMesh
-from .convex_overlap import Convex
+from .convex_overlap import convex
 from .hulls import convex_hull, hull_of
 from .primitive_meshes import pose, primitive_shape
 from .primitives import Primitive
@@ -16,7 +16,7 @@ _ALIGNED = 1 - 1e-6  # cosine from which a direction counts as a primitive's own
 
 def extent(shape: ConvexMesh, axis: FloatArray) -> float:
     """How long a shape is along a (3,) unit axis [m]."""
-    lower, upper = Convex(shape).extent(axis[None])
+    lower, upper = convex(shape).extent(axis[None])
     return float(upper[0] - lower[0])
 
 
@@ -32,7 +32,7 @@ def pulled_in(shape: ConvexMesh, axis: FloatArray, amount: float) -> ConvexMesh:
         shorter = _shorter(shape.primitive, axis, amount)
         if shorter is not None:
             return primitive_shape(shorter)
-    return _clipped(shape, axis, float(Convex(shape).extent(axis[None])[1][0]) - amount)
+    return _clipped(shape, axis, float(convex(shape).extent(axis[None])[1][0]) - amount)
 
 
 def _shorter(primitive: Primitive, axis: FloatArray, amount: float) -> Primitive | None:

@@ -7,11 +7,13 @@ from functools import cached_property
 
 import numpy as np
 
-from .arrays import FloatArray
+from .arrays import FloatArray, IntArray
 from .asset import ConvexMesh
+from .kept import kept
+from .topology import unique_rows
 from .triangles import areas, chunks, unit_normals
 
-_DIGITS = 6  # directions that agree to so many digits are one
+_SAME = 1e6  # steps of a grid, of which directions that share one are one
 _SLIVER = 1e-9  # of the largest triangle's area: normals of smaller ones are noise
 
 
@@ -67,6 +69,18 @@ class Convex:
         return middle - reach, middle + reach
 
 
+@kept
+def convex(shape: ConvexMesh) -> Convex:
+    """A shape with what the test asks of it, which stays known as long as the shape is."""
+    return Convex(shape)
+
+
+def meets(one: Convex, boxes: FloatArray) -> IntArray:
+    """Indices of the (N, 2, 3) boxes that share space with the one around a shape."""
+    lower, upper = one.bounds
+    return np.flatnonzero(((lower < boxes[:, 1]) & (boxes[:, 0] < upper)).all(axis=1))
+
+
 def gap(one: Convex, other: Convex) -> tuple[float, FloatArray]:
     """How far two shapes are apart [m], and the (3,) unit axis from one to the other along which they are.
 
@@ -79,19 +93,24 @@ def gap(one: Convex, other: Convex) -> tuple[float, FloatArray]:
     found = _widest(one, other, np.concatenate([one.normals, other.normals, between]))
     if found[0] > 0:
         return found
-    cross = np.cross(one.edges[:, None], other.edges[None]).reshape(-1, 3)
-    size = np.linalg.norm(cross, axis=1)
-    cross = cross[size > 1e-6] / size[size > 1e-6, None]
+    cross = _across(one.edges, other.edges)
     edged = _widest(one, other, cross) if len(cross) else found
     return edged if edged[0] > found[0] + 1e-9 else found  # faces win ties: shapes are cut along them
 
 
 def gap_across(one: Convex, other: Convex, way: FloatArray) -> tuple[float, FloatArray]:
     """How far two shapes pass each other by [m], if one moves along a (3,) unit way, and the axis there."""
-    across = np.cross(np.concatenate([one.edges, other.edges]), way)
-    size = np.linalg.norm(across, axis=1)
-    axes = across[size > 1e-6] / size[size > 1e-6, None]
-    return _widest(one, other, _lines(axes))
+    across = _across(np.concatenate([one.edges, other.edges]), way[None])
+    return _widest(one, other, _lines(across))
+
+
+def _across(one: FloatArray, other: FloatArray) -> FloatArray:
+    """(K, 3) unit directions across each of (N, 3) and each of (M, 3) ones that are not parallel."""
+    a, b = one.T[:, :, None], other.T[:, None]
+    x, y, z = a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+    size = np.sqrt(x * x + y * y + z * z)
+    wide = size > 1e-6
+    return np.asarray(np.stack([x[wide], y[wide], z[wide]]).T / size[wide, None])
 
 
 def _widest(one: Convex, other: Convex, axes: FloatArray) -> tuple[float, FloatArray]:
@@ -108,5 +127,5 @@ def _lines(directions: FloatArray) -> FloatArray:
     unit = directions / np.maximum(np.linalg.norm(directions, axis=1, keepdims=True), 1e-300)
     lead = np.argmax(np.abs(unit) > 1e-3, axis=1)
     unit = unit * np.sign(np.take_along_axis(unit, lead[:, None], axis=1))
-    first = np.unique(np.round(unit, _DIGITS), axis=0, return_index=True)[1]
+    first = unique_rows(np.rint(unit * _SAME).astype(np.int64))[0]
     return np.asarray(unit[np.sort(first)])

@@ -8,17 +8,14 @@ filled, in the piece whose hull holds most that is not solid.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .arrays import FloatArray
+from .kept import kept
 from .pieces import Piece, piece_of
 from .topology import neighbours
 from .triangles import unit_normals
-
-if TYPE_CHECKING:
-    from manifold3d import Manifold
 
 WORK = 240_000
 """Faces that may be cut in all, as often as they are: what bounds the time, the same on every machine."""
@@ -86,13 +83,12 @@ def _best_cut(piece: Piece, most: int, tight: float, least: float) -> tuple[list
     cut even so.
     """
     assert piece.body is not None
-    planes, spent = _planes(piece), 0
+    spent = 0
     slack = _PATIENCE * least if piece.excess > _VERY_LOOSE * least else 0.0
-    for some, bound in ((planes[:-3], 0.0), (planes[-3:], slack)):
+    for parted, bound in ((_along_faces, 0.0), (_halved, slack)):
         best: list[Piece] = []
-        lowest = 2 * piece.hull_volume + bound
-        for normal, offset in some:
-            parts = _apart(piece.body, normal, offset, piece.volume)
+        lowest, some = 2 * piece.hull_volume + bound, parted(piece)
+        for parts in some:
             cost = least * (len(parts) - 1) + sum(_cost(part, tight) for part in parts)
             if 0 < len(parts) <= most and cost < lowest - _TIE * piece.hull_volume:
                 best, lowest = parts, cost
@@ -102,6 +98,20 @@ def _best_cut(piece: Piece, most: int, tight: float, least: float) -> tuple[list
     return [], spent
 
 
+@kept
+def _along_faces(piece: Piece) -> list[list[Piece]]:
+    """What each cut along a face leaves; it is asked again when shapes are to be tighter."""
+    return [_apart(piece, normal, offset) for normal, offset in _planes(piece)]
+
+
+@kept
+def _halved(piece: Piece) -> list[list[Piece]]:
+    """What each cut through the middle leaves."""
+    assert piece.body is not None
+    lower, upper = np.reshape(piece.body.bounding_box(), (2, 3))
+    return [_apart(piece, axis, float((lower + upper) @ axis / 2)) for axis in np.eye(3)]
+
+
 def _cost(piece: Piece, tight: float) -> float:
     """[m^3] of the hull, twice where that is not tight. What a tight one holds besides weighs more yet."""
     if piece.hull_volume > tight * piece.volume:
@@ -109,15 +119,16 @@ def _cost(piece: Piece, tight: float) -> float:
     return piece.hull_volume + _BESIDE * max(piece.excess, 0.0)
 
 
-def _apart(body: Manifold, normal: FloatArray, offset: float, whole: float) -> list[Piece]:
+def _apart(piece: Piece, normal: FloatArray, offset: float) -> list[Piece]:
     """The connected pieces on both sides of a plane, without the films that earlier cuts left on faces."""
-    sides = body.split_by_plane(tuple(normal.tolist()), offset)
+    assert piece.body is not None
+    sides = piece.body.split_by_plane(tuple(normal.tolist()), offset)
     parts = [part for side in sides for part in side.decompose()]
-    return [piece_of(part) for part in parts if part.volume() > _SHAVING * whole]
+    return [piece_of(part) for part in parts if part.volume() > _SHAVING * piece.volume]
 
 
 def _planes(piece: Piece) -> list[tuple[FloatArray, float]]:
-    """Planes worth cutting along: of faces at concave edges, the longest first, and through the middle."""
+    """Planes worth cutting along: of faces at concave edges, the longest first."""
     assert piece.body is not None
     mesh = piece.body.to_mesh64()
     vertices, faces = np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts).astype(np.int64)
@@ -136,9 +147,7 @@ def _planes(piece: Piece) -> list[tuple[FloatArray, float]]:
         [normals[beside], np.einsum("ei,ei->e", normals[beside], vertices[faces[beside, 0]])]
     )
     most = _MOST_PLANES if len(faces) < _MANY_FACES else _MOST_PLANES // 2
-    found = [(plane[:3], float(plane[3])) for plane in _heaviest(planes, weight, size, most)]
-    halves = [(axis, float((lower + upper) @ axis / 2)) for axis in np.eye(3)]
-    return found + halves
+    return [(plane[:3], float(plane[3])) for plane in _heaviest(planes, weight, size, most)]
 
 
 def _shared_length(vertices: FloatArray, one: FloatArray, two: FloatArray) -> FloatArray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,9 +15,9 @@ from .asset import ConvexMesh
 from .closing import pieces_of
 from .convex_decomposition import DecompositionError, Tool, run_tool
 from .cutting import WORK, cut, cut_tight, is_loose
-from .fitting import fitted
+from .fitting import fitted_to
 from .grouping import grouped
-from .hulls import convex_hull, hull_of
+from .hulls import convex_hull
 from .mending import mended
 from .pieces import Piece, hulled
 from .shells import find_shells
@@ -55,7 +56,30 @@ class Budget:
     tight: float = 1.05
     work: int = WORK
     tool: Tool = "vhacd"
-    tool_seconds: float = 6.0
+    tool_seconds: float = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """What is to be stood for by shapes, with what does not depend on how tight these are to be.
+
+    Attributes:
+        vertices: (V, 3) [m].
+        faces: (F, 3).
+    """
+
+    vertices: FloatArray
+    faces: IntArray
+
+    @cached_property
+    def whole(self) -> Piece:
+        """All of it, filled."""
+        return hulled(self.vertices[np.unique(self.faces)])
+
+    @cached_property
+    def pieces(self) -> list[Piece]:
+        """The solids of its shells."""
+        return pieces_of(find_shells(self.vertices, self.faces))
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,28 +91,32 @@ class Decomposition:
         problem: why the tool gave nothing; "" when it did, or was not asked.
         tool_seconds: that the tool took.
         work: faces that were cut.
+        crowded: whether there were more pieces than shapes, so that some were put together again.
     """
 
     shapes: tuple[ConvexMesh, ...]
     problem: str = ""
     tool_seconds: float = 0.0
     work: int = 0
+    crowded: bool = False
 
 
 def decompose(vertices: FloatArray, faces: IntArray, budget: Budget = Budget()) -> Decomposition:
+    """Shapes for (F, 3) faces on (V, 3) vertices [m], see `decompose_surface`."""
+    return decompose_surface(Surface(vertices, faces), budget)
+
+
+def decompose_surface(surface: Surface, budget: Budget) -> Decomposition:
     """The tightest shapes that a budget allows, by a ladder.
 
     One shape if the whole is convex. Else one for each shell: a primitive where that fits, or its hull where
     it is filled. Else the shell is cut along its own planes, and what then still is loose goes to the tool.
 
     Args:
-        vertices: (V, 3) [m].
-        faces: (F, 3) of the part.
+        surface: of the part.
         budget: what it may cost.
     """
-    points = vertices[np.unique(faces)]
-    whole = hulled(points)
-    pieces = _visible(pieces_of(find_shells(vertices, faces)), budget.tight)
+    whole, pieces = surface.whole, _visible(surface.pieces, budget.tight)
     solid = _solid_volume(pieces, whole.hull_volume / _WHEEL)
     if not pieces or (len(pieces) > 1 and whole.hull_volume <= budget.tight * solid):
         return Decomposition((_shape(replace(whole, volume=solid), budget),))
@@ -104,7 +132,8 @@ def decompose(vertices: FloatArray, faces: IntArray, budget: Budget = Budget()) 
         budget.work,
     )
     found = mended(cuts, budget.shapes, cut_tight(budget.tight), least)
-    return replace(_with_tool(found, budget, _WORTH_A_TOOL * whole.hull_volume), work=work)
+    shapes = _with_tool(found, budget, _WORTH_A_TOOL * whole.hull_volume)
+    return replace(shapes, work=work, crowded=len(cuts) > budget.shapes)
 
 
 def decompose_by_tool(vertices: FloatArray, faces: IntArray, budget: Budget) -> Decomposition:
@@ -149,12 +178,13 @@ def _misses(shapes: Sequence[ConvexMesh], body: Manifold) -> float:
 
 def _shape(piece: Piece, budget: Budget) -> ConvexMesh:
     """A primitive where one fits, else the hull."""
-    return fitted(piece.points, piece.volume, 1 / budget.tight) or convex_hull(piece.points, budget.vertices)
+    fit = fitted_to(piece.hull, piece.volume, 1 / budget.tight) if piece.hull else None
+    return fit or convex_hull(piece.points, budget.vertices)
 
 
 def _round(piece: Piece) -> ConvexMesh | None:
     """The cylinder or sphere that its hull fills: wheels and knobs roll, whatever is carved in them."""
-    shape = fitted(piece.points, piece.hull_volume)
+    shape = fitted_to(piece.hull, piece.hull_volume) if piece.hull else None
     return shape if shape and shape.primitive and shape.primitive.kind != "box" else None
 
 
@@ -179,7 +209,7 @@ def _visible(pieces: Sequence[Piece], tight: float) -> list[Piece]:
     for holder in filled[:_MOST_HOLDERS]:
         if hidden[holder]:
             continue
-        hull = hull_of(pieces[holder].points)
+        hull = pieces[holder].hull
         if hull is None:
             continue
         normals = unit_normals(hull.vertices[hull.faces])

@@ -13,7 +13,7 @@ import numpy as np
 from .arrays import FloatArray
 from .asset import Asset, ConvexMesh, Joint
 from .clipping import extent, pulled_in
-from .convex_overlap import Convex, gap, gap_across
+from .convex_overlap import Convex, convex, gap, gap_across, meets
 from .kinematics import carried, joint_motion, span
 from .separation import CLEARANCE, TOLERANCE, overlaps_on_the_way, replaced, rigid_bodies
 
@@ -21,22 +21,26 @@ _STEPS = 0.0005 * 2.0 ** np.arange(8)  # [m] that a part has moved at its farthe
 _MOST_OF_SHAPE = 0.25  # of its extent that a shape may lose at once
 _MOST = 0.005  # of the object's diagonal that it may: overlaps up to this count as touching elsewhere
 
+WORK = 4000
+"""Pairs of shapes whose boxes meet that may be looked at in all: what bounds the time."""
+
 Shapes = dict[str, list[Convex]]  # by name of the part
 
 
-def eased(asset: Asset) -> Asset:
+def eased(asset: Asset, work: int = WORK) -> Asset:
     """The asset with shapes that begin their joint's way without those of neighbours, which give way as much.
 
     Pairs that exporters exclude, as they meet on the way however that begins, stay as they are.
 
     Args:
         asset: with collision shapes that are apart at rest.
+        work: see `WORK`; joints that come later stay as they are.
     """
-    shapes: Shapes = {part.name: [Convex(shape) for shape in part.collision] for part in asset.parts}
+    shapes: Shapes = {part.name: [convex(shape) for shape in part.collision] for part in asset.parts}
     excluded = {frozenset((pair.one, pair.other)) for pair in overlaps_on_the_way(asset)}
     for joint in asset.joints:
         if joint.kind in ("revolute", "continuous", "prismatic") and span(joint) != (0.0, 0.0):
-            _ease(shapes, joint, _others(asset, joint, excluded), _MOST * asset.mesh.diagonal)
+            work -= _ease(shapes, joint, _others(asset, joint, excluded), _MOST * asset.mesh.diagonal, work)
     changed = {
         part.name: tuple(one.shape for one in shapes[part.name])
         for part in asset.parts
@@ -45,19 +49,31 @@ def eased(asset: Asset) -> Asset:
     return replaced(asset, changed) if changed else asset
 
 
-def _ease(shapes: Shapes, joint: Joint, others: Mapping[str, Sequence[str]], most: float) -> None:
-    """Change shapes that a joint moves, and of other parts those that these begin their way in."""
+def _ease(shapes: Shapes, joint: Joint, others: Mapping[str, Sequence[str]], most: float, work: int) -> int:
+    """Change shapes that a joint moves, and of other parts those that these begin their way in.
+
+    Returns the work done, at least one.
+    """
+    spent = 1
+    still = {other for row in others.values() for other in row}
+    boxes = {other: np.array([one.bounds for one in shapes[other]]).reshape(-1, 2, 3) for other in still}
     for position in _positions(joint, [one for name in others for one in shapes[name]]):
         posed_T_rest = _motion(joint, position)
         for name, i in [(part, i) for part in others for i in range(len(shapes[part]))]:
+            if spent >= work:
+                return spent
             moved = Convex(_moved(shapes[name][i].shape, posed_T_rest))
-            for other, k in [(part, k) for part in others[name] for k in _met(moved, shapes[part])]:
+            near = [(part, k) for part in others[name] for k in meets(moved, boxes[part]).tolist()]
+            spent += len(near)
+            for other, k in [(part, k) for part, k in near if gap(moved, shapes[part][k])[0] < -TOLERANCE]:
                 pulls = _pulls(joint, position, moved, shapes[other][k], most)
                 if pulls is not None:
                     axis, mine, its = pulls
                     own = pulled_in(shapes[name][i].shape, axis @ posed_T_rest[:3, :3], mine)
-                    shapes[name][i], moved = Convex(own), Convex(_moved(own, posed_T_rest))
-                    shapes[other][k] = Convex(pulled_in(shapes[other][k].shape, -axis, its))
+                    shapes[name][i], moved = convex(own), Convex(_moved(own, posed_T_rest))
+                    shapes[other][k] = convex(pulled_in(shapes[other][k].shape, -axis, its))
+                    boxes[other][k] = shapes[other][k].bounds
+    return spent
 
 
 def _others(asset: Asset, joint: Joint, excluded: Collection[frozenset[str]]) -> dict[str, list[str]]:
@@ -78,13 +94,6 @@ def _positions(joint: Joint, own: Sequence[Convex]) -> list[float]:
     lower, upper = span(joint)
     steps = [float(step) for step in _STEPS / max(reach, 1e-6)]
     return [step for step in steps if step <= upper] + [-step for step in steps if -step >= lower]
-
-
-def _met(moved: Convex, others: Sequence[Convex]) -> list[int]:
-    """Indices of the shapes that one stands in."""
-    apart = [np.maximum(moved.bounds[0] - o.bounds[1], o.bounds[0] - moved.bounds[1]).max() for o in others]
-    near = [k for k, distance in enumerate(apart) if distance < 0]
-    return [k for k in near if gap(moved, others[k])[0] < -TOLERANCE]
 
 
 def _pulls(

@@ -30,8 +30,11 @@ def fitted(points: FloatArray, volume: float, filled: float = FILLED) -> ConvexM
         filled: share of the primitive that this has to be.
     """
     hull = hull_of(points)
-    if hull is None:
-        return None
+    return fitted_to(hull, volume, filled) if hull is not None else None
+
+
+def fitted_to(hull: ConvexMesh, volume: float, filled: float = FILLED) -> ConvexMesh | None:
+    """The same around points of which the hull is known."""
     box = _box(hull)
     candidates = [box] if _corners_stand_out(box, hull) <= _slack(box) else []
     candidates += [*_cylinders(hull, box), *_spheres(hull)]

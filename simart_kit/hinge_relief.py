@@ -14,7 +14,7 @@ import numpy as np
 from .arrays import FloatArray
 from .asset import Asset, ConvexMesh, Joint
 from .clipping import extent, pulled_in
-from .convex_overlap import Convex, gap
+from .convex_overlap import Convex, convex, gap, meets
 from .kinematics import carried, joint_motion, span
 from .separation import replaced, rigid_bodies
 
@@ -50,7 +50,7 @@ def _relieve(asset: Asset, shapes: Shapes, joint: Joint) -> bool:
     mine = [part.name for part in asset.parts if part.name in carried(asset, joint.child)]
     reach = max((float(_distances(joint, s).max()) for name in mine for s in shapes[name]), default=0.0)
     near = _NEAR * reach
-    others = [Convex(s) for s in _beside(asset, shapes, joint, mine) if _nearest(joint, s) < near]
+    others = [convex(s) for s in _beside(asset, shapes, joint, mine) if _nearest(joint, s) < near]
     own = {name: [i for i, s in enumerate(shapes[name]) if _nearest(joint, s) < near] for name in mine}
     if not others or _free(joint, [shapes[n][i] for n in mine for i in own[n]], others):
         return False
@@ -96,17 +96,15 @@ def _begun(joint: Joint, shape: ConvexMesh, distance: float) -> ConvexMesh | Non
 
 def _free(joint: Joint, own: Sequence[ConvexMesh], others: Sequence[Convex]) -> bool:
     """Whether shapes pass others all the way."""
-    origin = np.array(joint.origin)
+    origin, boxes = np.array(joint.origin), np.array([other.bounds for other in others])
     for position in np.linspace(*span(joint), _STOPS):
         turn = joint_motion(joint, float(position))[:3, :3]
         for shape in own:
             turned = Convex(
                 replace(shape, vertices=(shape.vertices - origin) @ turn.T + origin, primitive=None)
             )
-            for other in others:
-                apart = np.maximum(turned.bounds[0] - other.bounds[1], other.bounds[0] - turned.bounds[1])
-                if (apart < 0).all() and gap(turned, other)[0] < 0:
-                    return False
+            if any(gap(turned, others[k])[0] < 0 for k in meets(turned, boxes).tolist()):
+                return False
     return True
 
 

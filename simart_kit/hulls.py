@@ -7,6 +7,7 @@ import numpy as np
 from .arrays import FloatArray, IntArray
 from .asset import ConvexMesh
 from .farthest import farthest
+from .triangles import crosses
 
 MIN_THICKNESS = 0.002  # [m] of the hull of something flat
 _FLAT = 1e-12  # of the cube of its size: what a hull holds at least
@@ -30,8 +31,7 @@ def hull_of(points: FloatArray) -> ConvexMesh | None:
     used, corners = np.unique(hull.simplices, return_inverse=True)
     corners = corners.reshape(-1, 3)
     vertices = np.asarray(points, dtype=np.float64)[used]
-    a, b, c = (vertices[corners[:, i]] for i in range(3))
-    inward = np.einsum("ni,ni->n", np.cross(b - a, c - a), hull.equations[:, :3]) < 0
+    inward = np.einsum("ni,ni->n", crosses(vertices[corners]), hull.equations[:, :3]) < 0
     return ConvexMesh(vertices, np.where(inward[:, None], corners[:, ::-1], corners))
 
 
@@ -69,8 +69,8 @@ def convex_hull(points: FloatArray, max_vertices: int = 64, thickness: float = M
 
 def volume(shape: ConvexMesh) -> float:
     """Signed volume inside outward triangles [m^3]."""
-    a, b, c = (shape.vertices[shape.faces[:, i]] - shape.vertices.mean(axis=0) for i in range(3))
-    return float(np.einsum("ni,ni->", a, np.cross(b, c)) / 6)
+    a, b, c = (shape.vertices - shape.vertices.mean(axis=0))[shape.faces.T]
+    return float(np.einsum("ni,ni->", a, crosses(np.stack([np.zeros_like(a), b, c], axis=1))) / 6)
 
 
 def sphere_directions(count: int) -> FloatArray:

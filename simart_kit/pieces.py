@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .arrays import FloatArray, IntArray
-from .hulls import convex_hull, volume
+from .asset import ConvexMesh
+from .hulls import convex_hull, hull_of, volume
 from .topology import without_gaps
 
 if TYPE_CHECKING:
@@ -39,6 +40,11 @@ class Piece:
     def excess(self) -> float:
         """What the hull holds besides the solid [m^3]."""
         return self.hull_volume - self.volume
+
+    @cached_property
+    def hull(self) -> ConvexMesh | None:
+        """The hull of its points; None when they lie in a plane."""
+        return hull_of(self.points)
 
     @cached_property
     def lower(self) -> FloatArray:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
-from .arrays import FloatArray, IntArray
+from .arrays import FloatArray, IntArray, frozen_floats, frozen_ints
 from .asset import ConvexMesh
 from .primitives import Primitive
 
@@ -26,6 +28,7 @@ def pose(rotation: FloatArray, middle: FloatArray) -> FloatArray:
     return matrix
 
 
+@lru_cache
 def _unit_mesh(kind: str) -> tuple[FloatArray, IntArray]:
     """Vertices and outward triangles of a primitive of size 1."""
     from scipy.spatial import ConvexHull
@@ -34,7 +37,8 @@ def _unit_mesh(kind: str) -> tuple[FloatArray, IntArray]:
     hull = ConvexHull(points)
     a, b, c = (points[hull.simplices[:, i]] for i in range(3))
     inward = np.einsum("ni,ni->n", np.cross(b - a, c - a), hull.equations[:, :3]) < 0
-    return points, np.where(inward[:, None], hull.simplices[:, ::-1], hull.simplices)
+    faces = np.where(inward[:, None], hull.simplices[:, ::-1], hull.simplices)
+    return frozen_floats(points), frozen_ints(faces)
 
 
 def _cylinder() -> FloatArray:

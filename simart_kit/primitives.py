@@ -12,6 +12,8 @@ from .errors import BadInputError
 
 PrimitiveKind = Literal["box", "cylinder", "sphere"]
 
+_ROUNDING = 1e-9 + 1e-5 * np.eye(3)  # of a rotation times its transpose
+
 
 @dataclass(frozen=True, eq=False)
 class Primitive:
@@ -40,7 +42,8 @@ class Primitive:
         if not (min(self.size) > 0 and np.isfinite(self.size).all() and round_):
             raise BadInputError(f"a {self.kind} cannot have the size {self.size}")
         rotation = self.asset_T_shape[:3, :3]
-        if not (np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-9) and np.linalg.det(rotation) > 0):
+        off = np.abs(rotation @ rotation.T - np.eye(3))
+        if not ((off <= _ROUNDING).all() and np.linalg.det(rotation) > 0):
             raise BadInputError(f"the pose of a {self.kind} is no rotation and shift")
 
     @property

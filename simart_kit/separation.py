@@ -10,7 +10,7 @@ import numpy as np
 from .arrays import FloatArray, IntArray
 from .asset import Asset, ConvexMesh, Joint
 from .clipping import extent, pulled_in
-from .convex_overlap import Convex, gap
+from .convex_overlap import Convex, convex, gap
 from .kept import kept
 from .kinematics import Positions, rest_to_posed, span
 from .primitive_meshes import pose
@@ -67,10 +67,14 @@ def overlaps(asset: Asset, positions: Positions | None = None) -> tuple[Overlap,
     Raises:
         BadInputError: a position for a joint that does not exist, or of a wrong size.
     """
-    shapes = _shapes(asset)
-    if positions:
-        shapes = _posed(shapes, asset, positions)
-    return _named(asset, _deepest(shapes, rigid_bodies(asset)))
+    if not positions:
+        return _overlaps_at_rest(asset)
+    return _named(asset, _deepest(_posed(_shapes(asset), asset, positions), rigid_bodies(asset)))
+
+
+@kept
+def _overlaps_at_rest(asset: Asset) -> tuple[Overlap, ...]:
+    return _named(asset, _deepest(_shapes(asset), rigid_bodies(asset)))
 
 
 @kept
@@ -118,8 +122,8 @@ def separated(asset: Asset, margin: float, clearance: float = CLEARANCE) -> Asse
         apart, axis = gap(first, second)
         pulls = _pulls(first.shape, second.shape, axis, clearance - apart, margin)
         if pulls is not None:
-            shapes[one][i] = Convex(pulled_in(first.shape, axis, pulls[0]))
-            shapes[other][j] = Convex(pulled_in(second.shape, -axis, pulls[1]))
+            shapes[one][i] = convex(pulled_in(first.shape, axis, pulls[0]))
+            shapes[other][j] = convex(pulled_in(second.shape, -axis, pulls[1]))
     parts = zip(asset.parts, shapes, strict=True)
     return replaced(asset, {part.name: tuple(c.shape for c in row) for part, row in parts})
 
@@ -150,7 +154,7 @@ def _pulls(
 
 def _shapes(asset: Asset) -> list[list[Convex]]:
     """The shapes of each part at rest."""
-    return [[Convex(shape) for shape in part.collision] for part in asset.parts]
+    return [[convex(shape) for shape in part.collision] for part in asset.parts]
 
 
 def _posed(shapes: Sequence[Sequence[Convex]], asset: Asset, positions: Positions) -> list[list[Convex]]:

@@ -12,6 +12,7 @@ import numpy as np
 
 from .arrays import FloatArray, IntArray
 from .hulls import hull_corners
+from .kept import kept
 from .pieces import Piece
 from .triangles import areas
 
@@ -33,9 +34,16 @@ def straightened(pieces: Sequence[Piece], faces: int) -> list[Piece]:
 
 
 def _runs(piece: Piece, few: int) -> list[Piece]:
-    """The straight runs of a piece; itself where it is none of several, or has few faces."""
+    """The straight runs of a piece; itself where it is filled, or has few faces."""
     if piece.body is None or piece.hull_volume <= _SPARSE * piece.volume or piece.body.num_tri() <= few:
         return [piece]
+    return _thin(piece)
+
+
+@kept
+def _thin(piece: Piece) -> list[Piece]:
+    """The straight runs of a piece with a body; itself where it is none of several."""
+    assert piece.body is not None
     mesh = piece.body.to_mesh64()
     vertices, faces = np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts).astype(np.int64)
     triangles = vertices[faces]
@@ -46,44 +54,45 @@ def _runs(piece: Piece, few: int) -> list[Piece]:
 
 def straight_runs(triangles: FloatArray, depth: float) -> list[Piece]:
     """Hulls around the straight runs of (F, 3, 3) triangles with so much solid behind them [m]."""
-    return _parted(triangles, depth, _MOST_HALVINGS)
+    return _parted(triangles, areas(triangles), depth, _MOST_HALVINGS)
 
 
-def _parted(triangles: FloatArray, depth: float, halvings: int) -> list[Piece]:
+def _parted(triangles: FloatArray, area: FloatArray, depth: float, halvings: int) -> list[Piece]:
     """Hulls around (F, 3, 3) triangles: one, or those of their halves where these hold much less.
 
     Args:
         triangles: [m].
+        area: (F,) of them [m^2].
         depth: of the solid behind the surface, on average [m].
         halvings: at most.
     """
-    solid = depth * float(areas(triangles).sum())
+    solid = depth * float(area.sum())
     points = triangles.reshape(-1, 3)
     corners, size = hull_corners(points) or (points, solid)
     whole = [Piece(corners, min(solid, size), size, None)]
     if size <= _STRAIGHT * solid or not halvings or len(triangles) < 2:
         return whole
-    found = [
-        run for half in _halves(triangles, depth) for run in _parted(triangles[half], depth, halvings - 1)
-    ]
+    halves = [_parted(triangles[i], area[i], depth, halvings - 1) for i in _halves(triangles, area, depth)]
+    found = [run for half in halves for run in half]
     return found if max(solid, sum(run.hull_volume for run in found)) < _GAIN * size else whole
 
 
-def _halves(triangles: FloatArray, depth: float) -> tuple[IntArray, IntArray]:
+def _halves(triangles: FloatArray, area: FloatArray, depth: float) -> tuple[IntArray, IntArray]:
     """(F, 3, 3) triangles parted across an axis, where their boxes, weighted by area, are least."""
-    area, least, thick = areas(triangles), np.inf, _THICK * depth
+    least, thick = np.inf, _THICK * depth
+    middles, lower, upper = triangles.mean(axis=1), triangles.min(axis=1), triangles.max(axis=1)
     for axis in range(3):
-        order = np.argsort(triangles[:, :, axis].mean(axis=1), kind="stable")
-        cost = _grown(triangles[order], area[order], thick)[:-1]
-        cost += _grown(triangles[order[::-1]], area[order[::-1]], thick)[-2::-1]
+        order = np.argsort(middles[:, axis], kind="stable")
+        back = order[::-1]
+        cost = _grown(lower[order], upper[order], area[order], thick)[:-1]
+        cost += _grown(lower[back], upper[back], area[back], thick)[-2::-1]
         first = int(cost.argmin()) + 1
         if cost[first - 1] < least:
             least, halves = float(cost[first - 1]), (order[:first], order[first:])
     return halves
 
 
-def _grown(triangles: FloatArray, area: FloatArray, thick: float) -> FloatArray:
-    """(F,) volume of the box, `thick` at least, around the first so many triangles, times their area."""
-    lower = np.minimum.accumulate(triangles.min(axis=1))
-    upper = np.maximum.accumulate(triangles.max(axis=1))
-    return np.asarray(np.maximum(upper - lower, thick).prod(axis=1) * np.cumsum(area))
+def _grown(lower: FloatArray, upper: FloatArray, area: FloatArray, thick: float) -> FloatArray:
+    """(F,) volume of the box, `thick` at least, around the first so many boxes, times their area."""
+    size = np.maximum.accumulate(upper) - np.minimum.accumulate(lower)
+    return np.asarray(np.maximum(size, thick).prod(axis=1) * np.cumsum(area))

@@ -130,3 +130,8 @@ def _at(middle):
     matrix = np.eye(4)
     matrix[:3, 3] = middle
     return matrix
+
+
+def test_pairs_stay_as_they_are_once_the_work_is_done():
+    asset = asset_of(rail=[CUBE], one=[box([0.97, 0, 0], [2, 1, 1])], two=[box([-1, 0, 0], [0.03, 1, 1])])
+    assert {overlap.other for overlap in overlaps(carved_apart(asset, work=1))} == {"two"}

@@ -66,3 +66,8 @@ def test_what_would_lose_much_is_really_in_the_way_and_stays() -> None:
     asset = fronts(0.08)
     done = eased(asset)
     assert done.part("low").collision == asset.part("low").collision
+
+
+def test_joints_stay_as_they_are_once_the_work_is_done() -> None:
+    asset = fronts(0.006)
+    assert eased(asset, work=0) is asset

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Literal
 
@@ -16,7 +16,7 @@ from simart_kit.carving import carved_apart
 from simart_kit.coarsening import coarsened
 from simart_kit.convex_decomposition import lacks
 from simart_kit.cutting import WORK
-from simart_kit.decompose import Budget, Decomposition, decompose, decompose_by_tool
+from simart_kit.decompose import Budget, Decomposition, Surface, decompose_by_tool, decompose_surface
 from simart_kit.easing import eased
 from simart_kit.findings import Finding, library
 from simart_kit.fitting import aligned_box
@@ -51,7 +51,7 @@ class Collision(sk.Modifier):
             "tight; coacd follows surfaces better, is slow and an extra: `pip install 'simart-kit[coacd]'`",
         )
         tool_timeout: float = Field(
-            6.0, ge=0, description="time that `tool` may take for all parts; hulls then stand in [s]"
+            4.0, ge=0, description="time that `tool` may take for all parts; hulls then stand in [s]"
         )
         max_shapes: int = Field(32, ge=1, description="most shapes of a part in modes auto and decompose")
         max_vertices: int = Field(64, ge=8, description="most vertices of a shape; simulators take 64")
@@ -75,11 +75,12 @@ class Collision(sk.Modifier):
         lacking = options.mode in ("auto", "decompose") and lacks(options.tool)
         if lacking:
             raise sk.BadInputError(f"modifier collision: {options.tool} is not installed: {lacking}")
-        made = self._made(asset, {part.name for part in asset.parts}, Budget().tight, options.tool_timeout)
+        surfaces = {part.name: _surface(asset, index) for index, part in enumerate(asset.parts)}
+        made = self._made(surfaces, Budget().tight, options.tool_timeout)
         done = self._placed(asset, made)
         found: Sequence[Overlap] = overlaps(done)
         if found and options.mode == "auto":
-            made, done, found = self._refined(asset, made, done, found)
+            made, done, found = self._refined(asset, surfaces, made, done, found)
         if found and options.margin and options.mode in ("auto", "decompose"):
             done = carved_apart(done)
             found = overlaps(done)
@@ -92,12 +93,23 @@ class Collision(sk.Modifier):
         return done.with_notes("collision", "warning", problems)
 
     def _refined(
-        self, asset: sk.Asset, made: Shapes, done: sk.Asset, found: Sequence[Overlap]
+        self,
+        asset: sk.Asset,
+        surfaces: Mapping[str, Surface],
+        made: Shapes,
+        done: sk.Asset,
+        found: Sequence[Overlap],
     ) -> tuple[Shapes, sk.Asset, Sequence[Overlap]]:
-        """What is known, or tighter shapes where parts overlap, if these overlap less: rebates are small."""
+        """What is known, or tighter shapes where parts overlap, if these overlap less: rebates are small.
+
+        A part that has as many shapes as it may keeps them: finer ones would be put together again.
+        """
         names = {name for overlap in found for name in (overlap.one, overlap.other)}
         left = self.options.tool_timeout - sum(m.tool_seconds for m in made.values())
-        finer = made | self._made(asset, names, _REBATES, max(left, 0.0))
+        coarse = {n: surface for n, surface in surfaces.items() if n in names and not made[n].crowded}
+        if not coarse:
+            return made, done, found
+        finer = made | self._made(coarse, _REBATES, max(left, 0.0))
         tried = self._placed(asset, finer)
         remaining = overlaps(tried)
         if sum(o.depth for o in remaining) < sum(o.depth for o in found):
@@ -110,23 +122,21 @@ class Collision(sk.Modifier):
         margin = self.options.margin
         return separated(asset.with_parts(changed), margin) if margin else asset.with_parts(changed)
 
-    def _made(self, asset: sk.Asset, names: Collection[str], tight: float, seconds: float) -> Shapes:
+    def _made(self, surfaces: Mapping[str, Surface], tight: float, seconds: float) -> Shapes:
         """Shapes of some parts, the largest last. Each may take nearly all that is left of work and time."""
         options, made = self.options, {}
-        count = np.bincount(asset.face_part)
-        order = [i for i in np.argsort(count, kind="stable").tolist() if asset.parts[i].name in names]
+        order = sorted(surfaces, key=lambda name: len(surfaces[name].faces))
         work, kept = WORK, WORK // (_KEPT * len(order))
-        for done, index in enumerate(order):
+        for done, name in enumerate(order):
             share = max(work - kept * (len(order) - done - 1), kept)
             budget = Budget(options.max_shapes, options.max_vertices, tight, share, options.tool, seconds)
-            shapes = made[asset.parts[index].name] = self._shapes(asset, index, budget)
+            shapes = made[name] = self._shapes(surfaces[name], budget)
             work, seconds = max(work - shapes.work, 0), max(seconds - shapes.tool_seconds, 0.0)
-        return {part.name: made[part.name] for part in asset.parts if part.name in names}
+        return {name: made[name] for name in surfaces}
 
-    def _shapes(self, asset: sk.Asset, index: int, budget: Budget) -> Decomposition:
-        options, mesh = self.options, asset.mesh
-        vertices, faces = coarsened(mesh.vertices, mesh.faces[asset.face_part == index], _MOST_FACES)
-        points = vertices[np.unique(faces)]
+    def _shapes(self, surface: Surface, budget: Budget) -> Decomposition:
+        options = self.options
+        points = surface.vertices[np.unique(surface.faces)]
         match options.mode:
             case "none":
                 return Decomposition(())
@@ -136,9 +146,15 @@ class Collision(sk.Modifier):
             case "hull":
                 return Decomposition((convex_hull(points, options.max_vertices),))
             case "decompose":
-                return decompose_by_tool(vertices, faces, budget)
+                return decompose_by_tool(surface.vertices, surface.faces, budget)
             case "auto":
-                return decompose(vertices, faces, budget)
+                return decompose_surface(surface, budget)
+
+
+def _surface(asset: sk.Asset, index: int) -> Surface:
+    """The surface of a part, coarsened where it is very fine."""
+    mesh = asset.mesh
+    return Surface(*coarsened(mesh.vertices, mesh.faces[asset.face_part == index], _MOST_FACES))
 
 
 def _counts(mode: str, asset: sk.Asset) -> str:
