@@ -20,6 +20,9 @@ Motion = Callable[[float], FloatArray]
 POINTS = 600  # sampled on either surface
 BLOCKED = 0.03  # share of points that may pass through before the motion counts as blocked: modelling slop
 _DEEP = 0.003  # of the moving part's size: shallower crossings are surfaces that graze
+_MOST_HITS = 6  # faces that a point may meet in one step
+_OPPOSITE = -0.5  # cosine between faces that are the two sides of a board
+_STEP = 1e-6  # of the size
 
 
 class Sweep:
@@ -106,16 +109,29 @@ class _Surface:
         shells = find_shells(vertices, faces)
         triangles = shells.triangles
         self.rays = Rays(shells.vertices, shells.faces)
+        self.step = _STEP * self.rays.size  # off a face, lest a ray meet it again
         self.normals = unit_normals(triangles)
         volumes = np.bincount(shells.face_shell, signed_volumes(triangles), shells.count)
-        self._piece = shells.face_shell
+        self.pieces = shells.face_shell
         # Wound inward, it may be the inside of a wall: then both ways count.
         self._solid = (shells.closed & (volumes > 0))[shells.face_shell]
 
-    def entered(self, faces: IntArray, ways: FloatArray) -> BoolArray:
-        """Whether (N, 3) ways through faces do not just lead out of a solid."""
+    def entered(self, faces: IntArray, hits: FloatArray, ways: FloatArray) -> BoolArray:
+        """Whether (N, 3) ways through faces, met at (N, 3) hits, do not just lead out of a solid, or past it.
+
+        A flat outline that was filled to and fro closes nothing: beyond it there is no solid to come out of.
+        """
         outward = np.einsum("ni,ni->n", self.normals[faces], ways) > 0
-        return np.asarray(~(outward & self._solid[faces]))
+        solid = self._solid[faces]
+        beyond = self._comes_out(faces, hits, ways) | self._comes_out(faces, hits, -self.normals[faces])
+        return np.asarray(~solid | (~outward & beyond))
+
+    def _comes_out(self, faces: IntArray, hits: FloatArray, ways: FloatArray) -> BoolArray:
+        """Whether (N, 3) ways, behind a face, do not miss its piece or enter it again first."""
+        ways = ways / np.maximum(np.linalg.norm(ways, axis=1, keepdims=True), 1e-30)
+        nexts, _ = self.rays.first(hits + self.step * ways, ways)
+        enters = np.einsum("ni,ni->n", self.normals[nexts], ways) < 0
+        return np.asarray((nexts >= 0) & ~((self.pieces[nexts] == self.pieces[faces]) & enters))
 
     def outside(self, points: FloatArray) -> FloatArray:
         """The points that are not enclosed by one connected piece on all six sides."""
@@ -123,21 +139,26 @@ class _Surface:
         for row, direction in enumerate(np.concatenate([np.eye(3), -np.eye(3)])):
             # A little off the axis: rays along a wall's plane would slip through its edge.
             faces, _ = self.rays.first(points, direction + 0.01 * np.array([0.3, -0.5, 0.7]))
-            met[row] = np.where(faces >= 0, self._piece[faces] if len(self._piece) else -1, -1)
+            met[row] = np.where(faces >= 0, self.pieces[faces] if len(self.pieces) else -1, -1)
         enclosed = (met == met[0]).all(axis=0) & (met[0] >= 0)
         return np.asarray(points[~enclosed])
 
 
 class _Paths:
-    """Points on their way, and which of them have gone deep through a surface."""
+    """Points on their way, and which of them have gone deep through a surface.
+
+    One that comes out again before it was deep has grazed an edge, and is as free as before; but one that
+    comes out on the far side is through something thin.
+    """
 
     def __init__(self, target: _Surface, points: FloatArray, deep: float) -> None:
         self._target, self._points, self._deep = target, points, deep
         self._now, self._lead = points, 1.0
-        self._crossed = np.zeros(len(points), dtype=bool)
+        self._within = np.full(len(points), -1, dtype=np.int64)  # piece that a point is in, -1 for none
         self._passed = np.zeros(len(points), dtype=bool)
         self._hit = np.zeros_like(points)
         self._normal = np.zeros_like(points)
+        self._sense = np.zeros(len(points))
 
     def advance(self, pose: FloatArray) -> int:
         """Move to a (4, 4) pose; returns how many points have passed through so far."""
@@ -150,15 +171,37 @@ class _Paths:
         length = np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-30)
         start = start + self._lead * way * np.minimum(0.03 * self._deep / length, 0.5)
         self._lead = -1.0
-        faces, distance = self._target.rays.first(start, self._now - start)
-        new = (distance <= 1.0) & ~self._crossed
-        new[new] = self._target.entered(faces[new], way[new])
-        self._hit[new] = (start + (self._now - start) * np.where(new, distance, 0.0)[:, None])[new]
-        self._normal[new] = self._target.normals[faces[new]]
-        self._crossed |= new
+        going = np.flatnonzero(~self._passed)
+        for _ in range(_MOST_HITS):
+            going, start = self._meet(going, start, way)
         depth = np.abs(np.einsum("ij,ij->i", self._now - self._hit, self._normal))
-        self._passed |= self._crossed & (depth > self._deep)
+        self._passed |= (self._within >= 0) & (depth > self._deep)
         return int(self._passed.sum())
+
+    def _meet(self, going: IntArray, start: FloatArray, way: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Take (G,) points to the next face on their way; which of them go on, and (N, 3) where from."""
+        faces, distance = self._target.rays.first(start[going], (self._now - start)[going])
+        met = distance <= 1.0
+        going, faces, distance = going[met], faces[met], distance[met, None]
+        if not len(going):
+            return going, start
+        target, rest, within = self._target, self._now[going] - start[going], self._within[going]
+        hit, normal = start[going] + rest * distance, target.normals[faces]
+        sense = np.sign(np.einsum("ni,ni->n", normal, way[going]))
+        enters = within < 0
+        enters[enters] = target.entered(faces[enters], hit[enters], way[going][enters])
+        leaves = (within == target.pieces[faces]) & (sense * self._sense[going] < 0)
+        depth = np.abs(np.einsum("ni,ni->n", hit - self._hit[going], self._normal[going]))
+        through = np.einsum("ni,ni->n", normal, self._normal[going]) < _OPPOSITE
+        self._passed[going] |= leaves & (through | (depth > self._deep))
+        self._within[going[leaves]] = -1
+        inside = going[enters]
+        self._within[inside], self._sense[inside] = target.pieces[faces[enters]], sense[enters]
+        self._hit[inside], self._normal[inside] = hit[enters], normal[enters]
+        length = np.maximum(np.linalg.norm(rest, axis=1, keepdims=True), 1e-30)
+        start = start.copy()
+        start[going] = hit + rest * np.minimum(target.step / length, 1.0)
+        return going, start
 
 
 def sample_surface(triangles: FloatArray, count: int, rng: np.random.Generator) -> FloatArray:
