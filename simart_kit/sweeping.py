@@ -171,7 +171,7 @@ class _Paths:
         length = np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-30)
         start = start + self._lead * way * np.minimum(0.03 * self._deep / length, 0.5)
         self._lead = -1.0
-        going = np.flatnonzero(~self._passed)
+        going: IntArray = np.flatnonzero(~self._passed)
         for _ in range(_MOST_HITS):
             going, start = self._meet(going, start, way)
         depth = np.abs(np.einsum("ij,ij->i", self._now - self._hit, self._normal))

@@ -100,6 +100,7 @@ class Nano(Segmenter):
         material: Callable[[str], str],
         spec: Spec | None,
     ) -> Segmentation:
+        from .hardware import with_hardware
         from .honouring import chosen, rejoined
         from .pooling import pooled
         from .proposals import of_geometry, of_network, with_body
@@ -109,7 +110,7 @@ class Nano(Segmenter):
             geometry = of_geometry(mesh, self.seed)
             # Borders and lines by geometry are exact, but who knows the object finds more of it.
             first, second = (proposals, geometry) if said.recognised else (geometry, proposals)
-            proposals = pooled(mesh, first, second)
+            proposals = with_hardware(mesh, seen.face_piece, pooled(mesh, first, second))
         if spec is not None:
             proposals = chosen(mesh, said, seen, proposals, spec, self.seed)
         kept = with_body(mesh, proposals)
