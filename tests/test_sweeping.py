@@ -124,6 +124,28 @@ class TestDoor:
         frame: list[Bounds] = [((0.9, 0.02, 0.0), (1.1, 0.3, 1.0))]
         assert sweep_of(triangles(self.door), triangles(frame)).free(about((0, 0, 1)), 1.0, steps=100) < 0.1
 
+    def test_an_edge_that_grazes_its_jamb_comes_out_again(self) -> None:
+        """Hung in the middle of its thickness of 0.06 it needs 0.00045 of play, and has 0.0003."""
+        leaf: list[Bounds] = [((0.0, -0.03, 0.0), (1.0, 0.03, 1.0))]
+        jamb: list[Bounds] = [((1.0003, -0.03, 0.0), (1.02, 0.1, 1.0))]
+        assert sweep_of(triangles(leaf), triangles(jamb)).free(about((0, 0, -1)), np.pi / 2) == np.pi / 2
+
+    def test_an_outline_filled_to_and_fro_is_no_obstacle(self) -> None:
+        """The caps of a frame are fans from one corner: they cover its opening twice, with nothing behind."""
+        outline = [(1.2, 1.2), (-0.2, 1.2), (-0.2, 0), (-0.1, 0), (-0.1, 1.1), (1.1, 1.1), (1.1, 0), (1.2, 0)]
+        front, back = (np.array([(x, y, z) for x, z in outline]) for y in (0.0, 0.03))
+        caps = [cap[[0, i, i + 1][::way]] for cap, way in ((front, 1), (back, -1)) for i in range(1, 7)]
+        rim = [(i, (i + 1) % 8) for i in range(8)]
+        sides = [[front[j], front[i], back[i]] for i, j in rim]
+        sides += [[front[j], back[i], back[j]] for i, j in rim]
+        frame = np.array([*caps, *sides])
+        assert sweep_of(triangles(self.door), frame).free(about((0, 0, -1)), np.pi / 2) == np.pi / 2
+
+    def test_a_board_thinner_than_what_counts_as_deep_stops_it(self) -> None:
+        board: list[Bounds] = [((-1.0, -0.502, -0.5), (2.0, -0.5, 1.5))]
+        free = sweep_of(triangles(self.door), triangles(board)).free(about((0, 0, -1)), np.pi / 2, steps=90)
+        assert np.radians(30) <= free < np.radians(34)
+
 
 class TestOverlapAtRest:
     """A block reaches 0.1 deep into a larger one, as hinge knuckles and handles do."""
