@@ -15,7 +15,7 @@ _FLAT, _ALIKE = 0.6, 0.9
 # Shares of the surface that a frame, and a panel in it, have at least.
 _FRAME, _PANEL = 0.02, 0.004
 # How much farther out than its frame a panel lies at most [spacings], and how much deeper [longest sides].
-_OUT, _DEEP = 0.3, 0.04
+_OUT, _DEEP = 0.6, 0.04
 _INSIDE = 0.6  # share of its border that a panel has with its frame
 _SAME = 0.2  # of the shorter border of two panels that they share: they are of one
 

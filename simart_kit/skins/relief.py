@@ -14,6 +14,7 @@ from ..mesh import Mesh
 from ..normals import with_normals
 from ..srgb import linear_to_srgb
 from ..topology import without_gaps
+from .boards import with_faces_joined
 from .frames import with_frames_shared_out
 from .graph import SkinGraph, skin_graph, unit
 
@@ -57,7 +58,8 @@ def relief_pieces(mesh: Mesh, corners: IntArray, kept: IntArray) -> IntArray:
     barrier |= (area > _BIG * graph.areas.sum())[piece] & (height < -_EDGE)
     piece = graph.filled(graph.pieces(barrier), barrier, _LEAST)
     piece = graph.filled(piece, _narrow(graph, piece)[piece], _LEAST)
-    return _of_faces(with_frames_shared_out(graph, piece, facing), faces)
+    piece = with_frames_shared_out(graph, piece, facing)
+    return _of_faces(with_faces_joined(graph, piece, facing, faces), faces)
 
 
 def _height(graph: SkinGraph, facing: FloatArray) -> FloatArray:

@@ -24,6 +24,7 @@ SPANNING = 0.7  # a piece that fills this share of every extent is the body
 VISIBLE = 0.7  # share of a front's rectangle that is seen from outside
 OPEN = 0.3  # share of rays straight back that meet something, below which one may pass behind a panel
 
+_LARGE = 0.25  # share of a panel's rectangle from which on a piece that lies on it is no handle
 _GRIPS = 0.15  # share of a panel's rectangle that what one takes hold of covers at most
 _AROUND = np.diag([-1.0, 1.0, -1.0])  # (u, v, w) as seen from the other side
 
@@ -83,19 +84,20 @@ class Front:
         return float(self.box.size[0] * self.box.size[1])
 
 
-def find_fronts(scene: Scene, contacts: Contacts, facing: str) -> list[Front]:
-    """Every front towards one side."""
+def find_fronts(scene: Scene, contacts: Contacts, facing: str, fused: bool = False) -> list[Front]:
+    """Every front towards one side; of a fused skin, a board may span all, and carries what lies on it."""
     axes = FACINGS[facing]
     boxes = [box.turned(axes) for box in scene.boxes]
     whole = scene.box.turned(axes)
     found = []
     for piece, box in enumerate(boxes):
-        if (box.size[:2] < SMALLEST).any() or (box.size >= SPANNING * whole.size).all():
+        spans = (box.size >= SPANNING * whole.size).all() and not (fused and thin(box))
+        if (box.size[:2] < SMALLEST).any() or spans:
             continue
         inner = box.upper[2] < whole.center[2]
         if inner and not thin(box):
             continue
-        inlays = _inlays(boxes, piece)
+        inlays = _carried(boxes, piece) if fused else _inlays(boxes, piece)
         if _seen(scene, axes, box, (piece, *inlays)) < VISIBLE:
             continue
         # Seen through an opening, it is a back wall, which has no handle.
@@ -194,6 +196,21 @@ def _inlays(boxes: list[Box], piece: int) -> tuple[int, ...]:
     )
 
 
+def _carried(boxes: list[Box], piece: int) -> tuple[int, ...]:
+    """Inlays, and large pieces with what stands out of them, such as a panel and its handle in one."""
+    panel = boxes[piece]
+    large = _LARGE * np.prod(panel.size[:2])
+    lying = (
+        i
+        for i, box in enumerate(boxes)
+        if i != piece
+        and np.prod(box.size[:2]) > large
+        and _within(box, panel, LOOSE)
+        and box.lower[2] >= panel.lower[2] - TOUCH
+    )
+    return tuple(dict.fromkeys((*_inlays(boxes, piece), *lying)))
+
+
 def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int, ...]) -> tuple[int, ...]:
     panel = boxes[piece]
     reach = 0.5 * (panel.lower[2] + panel.upper[2])
@@ -205,7 +222,7 @@ def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int
         and _within(box, panel, 0.5 * TOUCH)
         and box.upper[2] > panel.upper[2] + 0.5 * TOUCH
         and box.upper[2] > reach
-        and np.prod(box.size[:2]) < 0.25 * np.prod(panel.size[:2])
+        and np.prod(box.size[:2]) < _LARGE * np.prod(panel.size[:2])
         and box.upper[2] - (panel.upper[2] if spindles else box.lower[2]) < 0.5 * panel.size[:2].max()
         and not _glazing_bar(box, panel)
     ]

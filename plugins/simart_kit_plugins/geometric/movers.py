@@ -12,6 +12,7 @@ from .fronts import OPEN, Front, find_fronts, thin
 from .sashes import passing, slides_over
 from .scene import FACINGS, Scene
 from .siblings import twins
+from .skin_fronts import leaves, parted_side
 
 ENCLOSED = 0.85  # share of rays behind a panel that must meet something for a cavity
 SHALLOWEST = 0.05  # a cavity is at least this deep
@@ -22,6 +23,7 @@ LEAST_SHARE = 0.06  # of its side that a front without a handle takes
 TALL = 0.8  # share of the object's height above which a leaf is for passing through
 MOST = 0.4  # share of its side that the leaf in a doorway takes
 _TWIN = 0.5  # how sure a front is of which only its twin opens by itself
+_BARE = 0.6  # how sure a front is that only the parting of a skin tells
 _DOUBTFUL = 0.3  # how sure a front is that takes its whole side, and for which nothing else speaks
 
 
@@ -48,7 +50,7 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     On a fused skin every patch closes the cavity within, so there only those with handles count, and what
     takes a whole side is the body's.
     """
-    fronts = {facing: find_fronts(scene, contacts, facing) for facing in FACINGS}
+    fronts = {facing: find_fronts(scene, contacts, facing, fused) for facing in FACINGS}
     main = _main_side(fronts)
     every = [front for facing in FACINGS for front in fronts[facing]]
     able = [] if fused else [front for front in every if _is_panel(front)]
@@ -58,6 +60,10 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
         score = max(_score(front, front.facing == main, fused), 0.8 * (front.piece in tracks))
         if score > 0:
             scored.append((score, front))
+    if fused:
+        told = {front.piece for _, front in scored}
+        bare = [*leaves(scene, fronts), *parted_side(scene, fronts)]
+        scored += [(_BARE, front) for front in bare if front.piece not in told]
     scored = _without_skins(scored)
     scored += [(_TWIN, front) for front in twins(scene, [front for _, front in scored], able)]
     tracks |= {front.piece for _, front in scored if _is_panel(front) and slides_over(scene, front)}

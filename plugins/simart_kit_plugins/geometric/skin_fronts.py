@@ -1,0 +1,105 @@
+"""Fronts of a fused skin that no handle tells: a side that is parted into panels, and boards that stand free.
+
+Each piece of a skin closes the hollow within. What tells fronts is that one side of a plain box is parted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from .fronts import Front, thin
+from .scene import FACINGS, Scene
+from .views import View, view_part
+
+_OPPOSITE = {"front": "back", "back": "front", "left": "right", "right": "left"}
+_BESIDE = {"front": ("left", "right"), "back": ("left", "right"), "left": ("front", "back")} | {
+    "right": ("front", "back")
+}
+_FLAT = 0.6  # share of a panel's surface that faces out
+_PLAIN = 0.7  # share of its side that a piece takes which is all of it, but for rims and feet
+_LEAST, _MOST = 0.05, 0.92  # shares of its side that a panel takes
+_PARTED = 0.6  # share of a parted side that its panels take together
+_LEVEL = 0.03  # diagonals between the planes of panels of one front
+_DEEP = 0.1  # of the diagonal, how far the other side is behind a panel
+_STRIP = 0.2  # share of the height up to which what runs along the floor or the top is a plinth or a fascia
+_WIDE = 0.85  # share of the width that these take
+_TALL, _LEAF = 0.75, 0.3  # shares of the height and of its side that a leaf takes
+_TWO_SIDED = 0.3  # share of a leaf's surface that each of its faces has
+_KNOB, _OUT = 0.12, 0.008  # share of its panel that a handle covers at most; diagonals that it stands out
+
+
+def parted_side(scene: Scene, fronts: Mapping[str, Sequence[Front]]) -> list[Front]:
+    """The panels of the side of a box that is parted, where the opposite and one beside it are plain."""
+    plain = {side for side in fronts if any(front.share > _PLAIN for front in fronts[side])}
+    found = [
+        _panels(scene, fronts[side])
+        for side, opposite in _OPPOSITE.items()
+        if opposite in plain and plain.intersection(_BESIDE[side])
+    ]
+    return max(found, key=len, default=[])
+
+
+def leaves(scene: Scene, fronts: Mapping[str, Sequence[Front]]) -> list[Front]:
+    """Boards with two faces that stand upright and bear a handle."""
+    return [
+        front
+        for side in _OPPOSITE
+        for front in fronts[side]
+        if front.tall > _TALL and front.share > _LEAF and _is_board(scene, front) and has_handle(scene, front)
+    ]
+
+
+def has_handle(scene: Scene, front: Front) -> bool:
+    """Whether something small stands out of a front, of its own or of one piece with it."""
+    if front.handles:
+        return True
+    view = view_part(scene, front.piece)
+    return front.facing in (view.facing, _OPPOSITE.get(view.facing)) and _bears_knob(view)
+
+
+def _bears_knob(view: View) -> bool:
+    if view.handle is None or view.handle.upper[2] - view.box.upper[2] < _OUT:
+        return False
+    return bool(np.prod(view.handle.size[:2]) < _KNOB * np.prod(view.box.size[:2]))
+
+
+def _is_board(scene: Scene, front: Front) -> bool:
+    faces = scene.faces_of((front.piece,))
+    along = scene.normals[faces] @ FACINGS[front.facing][2]
+    areas = scene.face_areas[faces]
+    return bool(min(areas[along > 0.9].sum(), areas[along < -0.9].sum()) > _TWO_SIDED * areas.sum())
+
+
+def _panels(scene: Scene, fronts: Sequence[Front]) -> list[Front]:
+    """Panels in one plane that together take most of the side, but for plinth and fascia; or none."""
+    inner = {piece for front in fronts for piece in front.inlays}
+    able = [front for front in fronts if front.piece not in inner and _may_close(front)]
+    if not able:
+        return []
+    levels = np.array([_plane(scene, front) for front in able])
+    main = levels[int(np.argmax([front.share for front in able]))]
+    level = [front for front, at in zip(able, levels, strict=True) if abs(at - main) < _LEVEL]
+    if len(level) < 2 or sum(front.share for front in level) < _PARTED:
+        return []
+    return [front for front in level if not _is_strip(scene, front)]
+
+
+def _plane(scene: Scene, front: Front) -> float:
+    """Where most of its surface lies [w]."""
+    faces = scene.faces_of((front.piece,))
+    return float(np.median((scene.triangles[faces].mean(axis=1) @ FACINGS[front.facing][2])))
+
+
+def _may_close(front: Front) -> bool:
+    sized = _LEAST < front.share < _MOST
+    closed = min(front.walled, front.backed) > 0.85 and front.depth > _DEEP
+    return sized and closed and front.flat > _FLAT and thin(front.box)
+
+
+def _is_strip(scene: Scene, front: Front) -> bool:
+    whole = scene.box.turned(FACINGS[front.facing])
+    low = front.box.lower[1] < whole.lower[1] + 0.05 * whole.size[1]
+    high = front.box.upper[1] > whole.upper[1] - 0.05 * whole.size[1]
+    return bool(front.tall < _STRIP and front.box.size[0] > _WIDE * whole.size[0] and (low or high))
