@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +12,7 @@ from .fronts import OPEN, Front, find_fronts, thin
 from .sashes import passing, slides_over
 from .scene import FACINGS, Scene
 from .siblings import twins
-from .skin_fronts import leaves, parted_side
+from .skin_fronts import leaves, parted_side, stacked
 
 ENCLOSED = 0.85  # share of rays behind a panel that must meet something for a cavity
 SHALLOWEST = 0.05  # a cavity is at least this deep
@@ -67,7 +67,9 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     scored = _without_skins(scored)
     scored += [(_TWIN, front) for front in twins(scene, [front for _, front in scored], able)]
     tracks |= {front.piece for _, front in scored if _is_panel(front) and slides_over(scene, front)}
-    return _apart(scored, set(), tracks)
+    drawers = stacked([front for _, front in scored]) if fused else set()
+    labels = dict.fromkeys(drawers, "drawer") | dict.fromkeys(tracks, "sliding_door")
+    return _apart(scored, set(), labels)
 
 
 def doubtful_movers(scene: Scene, contacts: Contacts, taken: set[int]) -> list[Mover]:
@@ -76,7 +78,7 @@ def doubtful_movers(scene: Scene, contacts: Contacts, taken: set[int]) -> list[M
     sides = {_main_side(fronts), "top"}
     found = [front for facing in FACINGS if facing in sides for front in fronts[facing]]
     able = [front for front in found if _is_panel(front) or front.boxed]
-    return _apart([(_DOUBTFUL * front.share, front) for front in able], taken, set())
+    return _apart([(_DOUBTFUL * front.share, front) for front in able], taken, {})
 
 
 def _without_skins(scored: Sequence[tuple[float, Front]]) -> list[tuple[float, Front]]:
@@ -91,19 +93,19 @@ def _without_skins(scored: Sequence[tuple[float, Front]]) -> list[tuple[float, F
     return [(score, front) for score, front in scored if front.piece not in skins]
 
 
-def _apart(scored: Sequence[tuple[float, Front]], taken: set[int], tracks: Set[int]) -> list[Mover]:
+def _apart(scored: Sequence[tuple[float, Front]], taken: set[int], labels: Mapping[int, str]) -> list[Mover]:
     """The surest first, without those that share pieces with surer ones or with `taken`.
 
     Args:
         scored: how sure each is.
         taken: pieces.
-        tracks: panels that slide along their front.
+        labels: of fronts by their piece, where more than the front tells it.
     """
     used, movers = set(taken), []
     for score, front in sorted(scored, key=lambda item: (-item[0], -item[1].area)):
         if not used.intersection(front.pieces):
             used.update(front.pieces)
-            label = "sliding_door" if front.piece in tracks else _label(front)
+            label = labels.get(front.piece) or _label(front)
             movers.append(Mover(front.pieces, label, score, _evidence(front)))
     return movers
 

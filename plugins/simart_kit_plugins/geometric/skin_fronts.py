@@ -18,27 +18,44 @@ _BESIDE = {"front": ("left", "right"), "back": ("left", "right"), "left": ("fron
     "right": ("front", "back")
 }
 _FLAT = 0.6  # share of a panel's surface that faces out
-_PLAIN = 0.7  # share of its side that a piece takes which is all of it, but for rims and feet
+_PLAIN = 0.7  # share of its side that what takes all of it has, but for rims and feet
 _LEAST, _MOST = 0.05, 0.92  # shares of its side that a panel takes
 _PARTED = 0.6  # share of a parted side that its panels take together
-_LEVEL = 0.03  # diagonals between the planes of panels of one front
+_LEVEL = 0.03  # diagonals between the planes, and between the edges, of panels of one front
+_LOW = 1.6  # a drawer is so many times as wide as high
 _DEEP = 0.1  # of the diagonal, how far the other side is behind a panel
 _STRIP = 0.2  # share of the height up to which what runs along the floor or the top is a plinth or a fascia
 _WIDE = 0.85  # share of the width that these take
 _TALL, _LEAF = 0.75, 0.3  # shares of the height and of its side that a leaf takes
 _TWO_SIDED = 0.3  # share of a leaf's surface that each of its faces has
-_KNOB, _OUT = 0.12, 0.008  # share of its panel that a handle covers at most; diagonals that it stands out
+# Share of its panel that a handle covers at most, and of either side: a moulding is as long as what it is on.
+_KNOB, _BAR = 0.12, 0.6
+_OUT = 0.008  # diagonals that it stands out
 
 
 def parted_side(scene: Scene, fronts: Mapping[str, Sequence[Front]]) -> list[Front]:
-    """The panels of the side of a box that is parted, where the opposite and one beside it are plain."""
-    plain = {side for side in fronts if any(front.share > _PLAIN for front in fronts[side])}
-    found = [
-        _panels(scene, fronts[side])
-        for side, opposite in _OPPOSITE.items()
-        if opposite in plain and plain.intersection(_BESIDE[side])
-    ]
+    """The panels of the side of a box that is parted more than the opposite one, and one beside it plain."""
+    pieces = {side: _pieces(fronts[side]) for side in fronts}
+    found = []
+    for side, opposite in _OPPOSITE.items():
+        level = _level_panels(scene, fronts[side])
+        if len(level) > pieces[opposite] and min(pieces[beside] for beside in _BESIDE[side]) == 1:
+            found.append([front for front in level if not _is_strip(scene, front)])
     return max(found, key=len, default=[])
+
+
+def stacked(fronts: Sequence[Front]) -> set[int]:
+    """Pieces of wide fronts that lie above one another, as wide as each other: drawers."""
+    wide = [front for front in fronts if front.box.size[0] > _LOW * front.box.size[1]]
+    return {one.piece for one in wide for other in wide if one is not other and _above(one, other)}
+
+
+def _above(one: Front, other: Front) -> bool:
+    """Whether one of two fronts lies right above the other, edge over edge."""
+    ends = np.abs([one.box.lower - other.box.lower, one.box.upper - other.box.upper])
+    between = max(one.box.lower[1] - other.box.upper[1], other.box.lower[1] - one.box.upper[1])
+    in_row = one.facing == other.facing and ends[:, 0].max() < 0.05 * one.box.size[0]
+    return bool(in_row and ends[:, 2].max() < 2 * _LEVEL and abs(between) < _LEVEL)
 
 
 def leaves(scene: Scene, fronts: Mapping[str, Sequence[Front]]) -> list[Front]:
@@ -62,7 +79,8 @@ def has_handle(scene: Scene, front: Front) -> bool:
 def _bears_knob(view: View) -> bool:
     if view.handle is None or view.handle.upper[2] - view.box.upper[2] < _OUT:
         return False
-    return bool(np.prod(view.handle.size[:2]) < _KNOB * np.prod(view.box.size[:2]))
+    share = view.handle.size[:2] / view.box.size[:2]
+    return bool(share.prod() < _KNOB and share.max() < _BAR)
 
 
 def _is_board(scene: Scene, front: Front) -> bool:
@@ -72,30 +90,38 @@ def _is_board(scene: Scene, front: Front) -> bool:
     return bool(min(areas[along > 0.9].sum(), areas[along < -0.9].sum()) > _TWO_SIDED * areas.sum())
 
 
-def _panels(scene: Scene, fronts: Sequence[Front]) -> list[Front]:
-    """Panels in one plane that together take most of the side, but for plinth and fascia; or none."""
+def _pieces(fronts: Sequence[Front]) -> int:
+    """How many panels a side is of; many where none, or too few, cover it."""
+    shares = sorted((front.share for front in _outer(fronts) if front.share > _LEAST), reverse=True)
+    covered = np.flatnonzero(np.cumsum(shares) > _PLAIN)
+    return int(covered[0]) + 1 if len(covered) else len(fronts) + 1
+
+
+def _outer(fronts: Sequence[Front]) -> list[Front]:
     inner = {piece for front in fronts for piece in front.inlays}
-    able = [front for front in fronts if front.piece not in inner and _may_close(front)]
+    return [front for front in fronts if front.piece not in inner and front.flat > _FLAT and thin(front.box)]
+
+
+def _level_panels(scene: Scene, fronts: Sequence[Front]) -> list[Front]:
+    """Panels in one plane that together take most of the side; or none."""
+    able = [front for front in _outer(fronts) if _may_close(front)]
     if not able:
         return []
     levels = np.array([_plane(scene, front) for front in able])
     main = levels[int(np.argmax([front.share for front in able]))]
     level = [front for front, at in zip(able, levels, strict=True) if abs(at - main) < _LEVEL]
-    if len(level) < 2 or sum(front.share for front in level) < _PARTED:
-        return []
-    return [front for front in level if not _is_strip(scene, front)]
+    return level if len(level) > 1 and sum(front.share for front in level) > _PARTED else []
 
 
 def _plane(scene: Scene, front: Front) -> float:
     """Where most of its surface lies [w]."""
     faces = scene.faces_of((front.piece,))
-    return float(np.median((scene.triangles[faces].mean(axis=1) @ FACINGS[front.facing][2])))
+    return float(np.median(scene.triangles[faces].mean(axis=1) @ FACINGS[front.facing][2]))
 
 
 def _may_close(front: Front) -> bool:
-    sized = _LEAST < front.share < _MOST
     closed = min(front.walled, front.backed) > 0.85 and front.depth > _DEEP
-    return sized and closed and front.flat > _FLAT and thin(front.box)
+    return closed and _LEAST < front.share < _MOST
 
 
 def _is_strip(scene: Scene, front: Front) -> bool:
