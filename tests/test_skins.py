@@ -122,6 +122,28 @@ class TestFrames:
         assert at(mesh, segments, (4, 0, 27)) == at(mesh, segments, (4, 0, 73))
 
 
+def test_the_two_faces_of_a_board_are_one_piece() -> None:
+    mesh = skin([((0, 0, 0), (60, 40, 6)), ((0, 36, 6), (60, 40, 50))])
+    segments = find_segments(mesh, relief=True)
+    before, back, low = (at(mesh, segments, place) for place in ((30, 36, 30), (30, 40, 30), (30, 16, 6)))
+    assert before == back != low
+
+
+class TestPartedSides:
+    def drawers(self, *, behind: bool) -> list[str]:
+        """Labels of what is found on a block with three slabs before it, and as many behind it."""
+        slabs: list[Box] = [((2, -3, low), (48, 0, low + 20)) for low in (2, 26, 50)]
+        after: list[Box] = [((x, 24, z), (u, 27, w)) for (x, _, z), (u, _, w) in slabs]
+        found = Geometric().segment(skin([((0, 0, 0), (50, 24, 72)), *slabs, *(after if behind else ())]))
+        return [guess.label for guess in found.parts]
+
+    def test_wide_slabs_above_one_another_before_a_plain_block_are_drawers(self) -> None:
+        assert self.drawers(behind=False) == ["body", "drawer", "drawer", "drawer"]
+
+    def test_a_block_that_is_parted_alike_on_both_sides_stays(self) -> None:
+        assert self.drawers(behind=True) == ["body"]
+
+
 def test_a_coarse_skin_is_cut_at_its_creases() -> None:
     corners = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
     quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))

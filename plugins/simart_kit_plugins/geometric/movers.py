@@ -47,8 +47,8 @@ class Mover:
 def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     """Doors, drawers and lids. A front with a handle counts on any side; one without, on the main side only.
 
-    On a fused skin every patch closes the cavity within, so there only those with handles count, and what
-    takes a whole side is the body's.
+    On a fused skin every patch closes the cavity within. There those with handles count, unless they take a
+    whole side of the body, boards with a handle, and the panels of a parted side.
     """
     fronts = {facing: find_fronts(scene, contacts, facing, fused) for facing in FACINGS}
     main = _main_side(fronts)

@@ -107,7 +107,7 @@ def _notes(segments: Segments, movers: list[Mover]) -> tuple[Note, ...]:
     notes = (Note("segment", "info", segments.describe()), Note("segment", "info", _told(movers)))
     if not segments.patches:
         return notes
-    text = "the surface is one fused skin, in which only fronts with handles can be told apart: look at it"
+    text = "the surface is one fused skin, in which much that moves cannot be told apart: look at it"
     return (*notes, Note("segment", "warning", text))
 
 
