@@ -14,6 +14,8 @@ from .sweeping import Sweep, free_range, move
 
 _ENOUGH = 0.5  # of the wanted travel: what comes so far waits for nothing, and waiting has to yield it
 _SMALL, _HELD = 0.1, 0.3  # of the object's diagonal: buttons, keys and switches; triggers and grips
+# Words of what fingers press, which may take half of the object: a presenter's touchpad.
+_PRESSED, _MOST = {"button", "key", "switch", "touchpad", "trigger", "squeeze", "thumbstick"}, 0.5
 _LITTLE, _TILT = 0.25, np.deg2rad(30.0)  # of its size that a larger thing is pressed, and how far one turns
 
 
@@ -67,8 +69,8 @@ def free_ranges(asset: Asset, steps: int, seed: int) -> dict[str, FreeRange]:
 def sinks(asset: Asset, joint: Joint, steps: int, seed: int) -> bool:
     """Whether a joint presses something small into the part that carries it, as a button without a hole.
 
-    It is small beside the object, slides by less than its own length along its axis, or turns or slides by
-    little, as triggers and grips do; and nothing else is in its way.
+    It is small beside the object, or its label says that it is pressed; slides by less than its own length
+    along its axis, or turns or slides by little, as triggers and grips do; and nothing else is in its way.
 
     Args:
         asset: at rest.
@@ -81,12 +83,10 @@ def sinks(asset: Asset, joint: Joint, steps: int, seed: int) -> bool:
     mesh, moving = asset.mesh, _faces(asset, joint.child)
     points = mesh.vertices[mesh.faces[moving]].reshape(-1, 3)
     along, size = np.ptp(points @ np.array(joint.axis)), np.linalg.norm(np.ptp(points, axis=0))
-    if joint.turns:
-        pressed = _wanted(joint) <= _TILT and size <= _HELD * mesh.diagonal
-    else:
-        most = along if size <= _SMALL * mesh.diagonal else _LITTLE * size
-        pressed = _wanted(joint) <= most and size <= _HELD * mesh.diagonal
-    if not pressed:
+    named = not _PRESSED.isdisjoint(asset.part(joint.child).label.replace("_", " ").split())
+    little = _LITTLE * size
+    most = _TILT if joint.turns else max(along, little) if size <= _SMALL * mesh.diagonal else little
+    if _wanted(joint) > most or size > (_MOST if named else _HELD) * mesh.diagonal:
         return False
     carrier = asset.face_part == asset.part_index(joint.parent)
     return _swept(asset, joint, {}, carrier, steps, seed).travel == _wanted(joint)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -142,6 +143,11 @@ class TestButton:
         (joint,) = FLAGGING.modify(self.pressed(travel, size)).joints
         assert joint.limits is not None
         assert joint.limits.upper < 0.5 * travel
+
+    def test_what_is_called_a_touchpad_may_be_large(self) -> None:
+        asset = self.pressed(0.1, 0.5)
+        named = asset.with_parts({"button": replace(asset.part("button"), label="touchpad")})
+        assert Sweep().modify(named).joints == asset.joints
 
     @pytest.mark.parametrize(("degrees", "sinks"), [(20, True), (60, False)])
     def test_a_trigger_turns_into_its_grip_by_little(self, degrees: float, sinks: bool) -> None:
