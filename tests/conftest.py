@@ -10,21 +10,25 @@ import pytest
 
 import simart_kit as sk
 
+from .once import made_once
 from .real_objects import source
 
 
 @pytest.fixture(scope="session")
 def converted(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], sk.Result]:
     """Convert an object of `real_objects` by its name, once; the example with its picture and recording."""
-    home = tmp_path_factory.mktemp("converted")
 
     @cache
     def convert(name: str) -> sk.Result:
         example = name == "example"
-        with pytest.MonkeyPatch.context() as patch:
-            if not example:  # pictures take longest
-                patch.setattr("simart_kit.render.write_preview", lambda asset, path: path)
-            return sk.convert(source(name), "geometric", out=home / name, record=example)
+
+        def make(folder: Path) -> sk.Result:
+            with pytest.MonkeyPatch.context() as patch:
+                if not example:  # pictures take longest
+                    patch.setattr("simart_kit.render.write_preview", lambda asset, path: path)
+                return sk.convert(source(name), "geometric", out=folder / name, record=example)
+
+        return made_once(tmp_path_factory, f"converted_{name}", make)
 
     return convert
 

@@ -6,7 +6,7 @@ Frames of links are those that the loader reports; nothing of simart_kit takes p
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -38,12 +38,18 @@ class Reading:
     pictures: int | None
 
 
-Reader = Callable[[Path, Mapping[str, float]], Reading]
+Positions = Mapping[str, float]
+Reader = Callable[[Path, Sequence[Positions]], list[Reading]]
+"""Reads a file once and says how the robot is at each of the joint positions; those not named are zero."""
 
 
-def read_mujoco(path: Path, positions: Mapping[str, float]) -> Reading:
+def read_mujoco(path: Path, asked: Sequence[Positions]) -> list[Reading]:
     """URDF or MJCF through MuJoCo."""
     model = mujoco.MjModel.from_xml_path(str(path))
+    return [_mujoco_at(model, positions) for positions in asked]
+
+
+def _mujoco_at(model: mujoco.MjModel, positions: Positions) -> Reading:
     data = mujoco.MjData(model)
     for name, position in positions.items():
         data.joint(name).qpos[0] = position
@@ -65,10 +71,14 @@ def read_mujoco(path: Path, positions: Mapping[str, float]) -> Reading:
     )
 
 
-def read_yourdfpy(path: Path, positions: Mapping[str, float]) -> Reading:
+def read_yourdfpy(path: Path, asked: Sequence[Positions]) -> list[Reading]:
     """URDF through yourdfpy and trimesh."""
     robot = yourdfpy.URDF.load(str(path))
-    robot.update_cfg(dict(positions))
+    return [_yourdfpy_at(robot, positions) for positions in asked]
+
+
+def _yourdfpy_at(robot: yourdfpy.URDF, positions: Positions) -> Reading:
+    robot.update_cfg(dict.fromkeys(robot.actuated_joint_names, 0.0) | dict(positions))
     links = robot.robot.links
     inertials = {
         link.name: Inertial(link.inertial.mass, link.inertial.origin[:3, 3], link.inertial.inertia)
@@ -88,40 +98,49 @@ def read_yourdfpy(path: Path, positions: Mapping[str, float]) -> Reading:
     )
 
 
-def read_pybullet(path: Path, positions: Mapping[str, float]) -> Reading:
+def read_pybullet(path: Path, asked: Sequence[Positions]) -> list[Reading]:
     """URDF through PyBullet, with the inertia of the file."""
     client = pybullet.connect(pybullet.DIRECT)
     try:
         body = pybullet.loadURDF(str(path), flags=pybullet.URDF_USE_INERTIA_FROM_FILE, physicsClientId=client)
-        joints = {
-            info[1].decode(): info
-            for info in (pybullet.getJointInfo(body, j) for j in range(pybullet.getNumJoints(body)))
-        }
-        for name, position in positions.items():
-            pybullet.resetJointState(body, joints[name][0], position)
-        links = {pybullet.getBodyInfo(body)[0].decode(): -1}
-        links |= {info[12].decode(): info[0] for info in joints.values()}
-        return Reading(
-            poses={name: _bullet_pose(body, link) for name, link in links.items()},
-            inertials={name: _bullet_inertial(body, link) for name, link in links.items()},
-            limits={
-                name: (info[8], info[9]) if info[8] <= info[9] else None
-                for name, info in joints.items()
-                if info[2] != pybullet.JOINT_FIXED
-            },
-            colliders=Counter({n: len(pybullet.getCollisionShapeData(body, i)) for n, i in links.items()}),
-            pictures=None,
-        )
+        return [_pybullet_at(body, positions) for positions in asked]
     finally:
         pybullet.disconnect(client)
 
 
-def read_pinocchio(path: Path, positions: Mapping[str, float]) -> Reading:
+def _pybullet_at(body: int, positions: Positions) -> Reading:
+    joints = {
+        info[1].decode(): info
+        for info in (pybullet.getJointInfo(body, j) for j in range(pybullet.getNumJoints(body)))
+    }
+    for name, joint in joints.items():
+        if joint[2] != pybullet.JOINT_FIXED:
+            pybullet.resetJointState(body, joint[0], positions.get(name, 0.0))
+    links = {pybullet.getBodyInfo(body)[0].decode(): -1}
+    links |= {info[12].decode(): info[0] for info in joints.values()}
+    return Reading(
+        poses={name: _bullet_pose(body, link) for name, link in links.items()},
+        inertials={name: _bullet_inertial(body, link) for name, link in links.items()},
+        limits={
+            name: (info[8], info[9]) if info[8] <= info[9] else None
+            for name, info in joints.items()
+            if info[2] != pybullet.JOINT_FIXED
+        },
+        colliders=Counter({n: len(pybullet.getCollisionShapeData(body, i)) for n, i in links.items()}),
+        pictures=None,
+    )
+
+
+def read_pinocchio(path: Path, asked: Sequence[Positions]) -> list[Reading]:
     """URDF through Pinocchio, on a free base, so that the root link keeps its own inertia."""
     model = pinocchio.buildModelFromUrdf(str(path), pinocchio.JointModelFreeFlyer())
     shapes = pinocchio.buildGeomFromUrdf(
         model, str(path), pinocchio.GeometryType.COLLISION, package_dirs=[str(path.parent)]
     )
+    return [_pinocchio_at(model, shapes, positions) for positions in asked]
+
+
+def _pinocchio_at(model: pinocchio.Model, shapes: pinocchio.GeometryModel, positions: Positions) -> Reading:
     names = list(model.names)[2:]
     joints = {name: model.joints[model.getJointId(name)] for name in names}
     q = pinocchio.neutral(model)

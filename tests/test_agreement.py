@@ -54,13 +54,15 @@ def poses(asset: Asset) -> list[dict[str, float]]:
 
 @pytest.mark.parametrize("reader", URDF_READERS)
 def test_urdf_is_the_asset_at_every_pose(reader: str, result: sk.Result) -> None:
-    for positions in poses(result.asset):
-        assert_same_robot(URDF_READERS[reader](result.paths["urdf"], positions), result.asset, positions)
+    asked = poses(result.asset)
+    for positions, found in zip(asked, URDF_READERS[reader](result.paths["urdf"], asked), strict=True):
+        assert_same_robot(found, result.asset, positions)
 
 
 def test_mjcf_is_the_asset_at_every_pose(result: sk.Result) -> None:
-    for positions in poses(result.asset):
-        assert_same_robot(read_mujoco(result.paths["mjcf"], positions), result.asset, positions)
+    asked = poses(result.asset)
+    for positions, found in zip(asked, read_mujoco(result.paths["mjcf"], asked), strict=True):
+        assert_same_robot(found, result.asset, positions)
 
 
 def test_usd_is_the_asset_at_every_pose(result: sk.Result) -> None:
@@ -181,9 +183,9 @@ def test_a_moved_folder_is_whole(again: Path, tmp_path: Path) -> None:
     shutil.copytree(again, folder)
     asset = sk.load_asset(folder)
     positions = poses(asset)[1]
-    assert_same_robot(read_mujoco(folder / "mjcf" / "cabinet.xml", positions), asset, positions)
+    assert_same_robot(read_mujoco(folder / "mjcf" / "cabinet.xml", [positions])[0], asset, positions)
     for reader in URDF_READERS.values():
-        assert_same_robot(reader(folder / "urdf" / "cabinet.urdf", positions), asset, positions)
+        assert_same_robot(reader(folder / "urdf" / "cabinet.urdf", [positions])[0], asset, positions)
     looks = usd_looks(folder / "usd" / "cabinet.usda", CENTRES)
     assert set(looks) == {part.name for part in asset.parts}
     assert all(look.textured for look in looks.values())

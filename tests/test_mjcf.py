@@ -53,7 +53,7 @@ def contacts(model: mujoco.MjModel) -> list[float]:
 def test_mujoco_sees_the_asset(case: str, tmp_path: Path) -> None:
     asset = CASES[case]()
     positions = random_positions(asset)
-    assert_same_robot(read_mujoco(export(asset, tmp_path / "mjcf"), positions), asset, positions)
+    assert_same_robot(read_mujoco(export(asset, tmp_path / "mjcf"), [positions])[0], asset, positions)
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -75,7 +75,7 @@ def test_shapes_are_either_drawn_or_solid(case: str, tmp_path: Path) -> None:
 )
 def test_surfaces_keep_their_pictures(case: str, pictures: int, files: int, tmp_path: Path) -> None:
     path = export(CASES[case](), tmp_path / "mjcf")
-    assert read_mujoco(path, {}).pictures == pictures
+    assert read_mujoco(path, [{}])[0].pictures == pictures
     assert len(list(path.parent.rglob("*.png"))) == mujoco.MjModel.from_xml_path(str(path)).ntex == files
 
 
@@ -136,7 +136,7 @@ def test_two_exports_are_identical_and_hold_no_absolute_path(tmp_path: Path) -> 
 def test_the_folder_can_be_moved(tmp_path: Path) -> None:
     export(cabinet_asset(), tmp_path / "here")
     shutil.move(tmp_path / "here", tmp_path / "there")
-    assert read_mujoco(tmp_path / "there" / "cabinet.xml", {}).pictures == 3
+    assert read_mujoco(tmp_path / "there" / "cabinet.xml", [{}])[0].pictures == 3
 
 
 @pytest.mark.parametrize("floating", [False, True])
@@ -233,7 +233,7 @@ def test_a_joint_without_travel_is_left_out(tmp_path: Path) -> None:
 def test_an_asset_without_physics_loads(tmp_path: Path) -> None:
     asset = cabinet_asset(physics=False)
     positions = random_positions(asset)
-    reading = read_mujoco(export(asset, tmp_path / "mjcf"), positions)
+    reading = read_mujoco(export(asset, tmp_path / "mjcf"), [positions])[0]
     for name, pose in forward(asset, positions).items():
         np.testing.assert_allclose(reading.poses[name], pose, atol=1e-6)
     assert any("no mass is known" in text for text in Mjcf().unsupported(asset))

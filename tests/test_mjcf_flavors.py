@@ -46,7 +46,7 @@ def lifted(asset: Asset, height: float) -> Asset:
 def test_an_object_of_robosuite_is_the_same_robot(case: str, tmp_path: Path) -> None:
     asset = CASES[case]()
     positions = random_positions(asset)
-    reading = read_mujoco(robosuite(asset, tmp_path / "mjcf"), positions)
+    reading = read_mujoco(robosuite(asset, tmp_path / "mjcf"), [positions])[0]
     for name in ("", "object"):
         np.testing.assert_array_equal(reading.poses.pop(name), np.eye(4))
         assert reading.inertials.pop(name).mass == 0.0

@@ -43,7 +43,7 @@ def export(asset: Asset, folder: Path, **options: bool) -> Path:
 def test_loaders_see_the_asset(case: str, loader: str, tmp_path: Path) -> None:
     asset = CASES[case]()
     positions = random_positions(asset)
-    reading = URDF_READERS[loader](export(asset, tmp_path / "urdf"), positions)
+    reading = URDF_READERS[loader](export(asset, tmp_path / "urdf"), [positions])[0]
     assert_same_robot(reading, asset, positions)
 
 
@@ -55,7 +55,7 @@ def test_surfaces_keep_their_pictures(case: str, pictures: int, tmp_path: Path) 
     path = export(asset, tmp_path / "urdf")
     robot = ElementTree.parse(path)
     assert len(robot.findall("link/visual")) == surface_count(asset)
-    assert read_yourdfpy(path, {}).pictures == pictures
+    assert read_yourdfpy(path, [{}])[0].pictures == pictures
 
 
 def test_a_picture_is_the_one_of_the_asset(tmp_path: Path) -> None:
@@ -94,8 +94,8 @@ def test_two_exports_are_identical_and_hold_no_absolute_path(tmp_path: Path) -> 
 def test_the_folder_can_be_moved(tmp_path: Path) -> None:
     export(cabinet_asset(), tmp_path / "here")
     shutil.move(tmp_path / "here", tmp_path / "there")
-    assert read_yourdfpy(tmp_path / "there" / "cabinet.urdf", {}).pictures == 3
-    assert read_mujoco(tmp_path / "there" / "cabinet.urdf", {}).colliders.total() == 9
+    assert read_yourdfpy(tmp_path / "there" / "cabinet.urdf", [{}])[0].pictures == 3
+    assert read_mujoco(tmp_path / "there" / "cabinet.urdf", [{}])[0].colliders.total() == 9
 
 
 def test_every_joint_has_what_ros_asks_for(tmp_path: Path) -> None:
@@ -131,7 +131,7 @@ def test_meshes_are_named_by_package_on_request(tmp_path: Path) -> None:
     for name in names:
         assert name.startswith("package://cabinet/meshes/")
         assert (tmp_path / "urdf" / name.removeprefix("package://")).is_file()
-    assert read_yourdfpy(path, {}).pictures == 3
+    assert read_yourdfpy(path, [{}])[0].pictures == 3
 
 
 def test_surface_friction_is_written_for_gazebo_pybullet_and_drake(tmp_path: Path) -> None:
@@ -150,7 +150,7 @@ def test_surface_friction_is_written_for_gazebo_pybullet_and_drake(tmp_path: Pat
 def test_joints_that_urdf_lacks_become_fixed(kind: str, loader: str, tmp_path: Path) -> None:
     asset = with_joint_kind(kind)
     positions = {"drawer_slide": 0.2}
-    reading = URDF_READERS[loader](export(asset, tmp_path / "urdf"), positions)
+    reading = URDF_READERS[loader](export(asset, tmp_path / "urdf"), [positions])[0]
     assert set(reading.limits) == {"drawer_slide"}
     for name, pose in forward(asset, positions).items():
         np.testing.assert_allclose(reading.poses[name], pose, atol=1e-6)
@@ -163,7 +163,7 @@ def test_a_joint_without_travel_loads_as_fixed(loader: str, tmp_path: Path) -> N
     asset = cabinet_asset()
     stuck = replace(asset.joint("door_hinge"), limits=Limits(0.0, 0.0))
     asset = asset.with_joints({"door_hinge": stuck})
-    reading = URDF_READERS[loader](export(asset, tmp_path / "urdf"), {})
+    reading = URDF_READERS[loader](export(asset, tmp_path / "urdf"), [{}])[0]
     assert set(reading.limits) == {"drawer_slide"}
     assert "a joint without travel is written as fixed: door_hinge" in Urdf().unsupported(asset)
 
@@ -175,7 +175,7 @@ def test_a_flat_collision_shape_becomes_a_slab(loader: str, tmp_path: Path) -> N
     )
     asset = static_asset()
     asset = asset.with_parts({"body": replace(asset.parts[0], collision=(square, square))})
-    assert URDF_READERS[loader](export(asset, tmp_path / "urdf"), {}).colliders["body"] == 2
+    assert URDF_READERS[loader](export(asset, tmp_path / "urdf"), [{}])[0].colliders["body"] == 2
 
 
 def test_what_is_lost_is_told() -> None:
@@ -191,6 +191,6 @@ def test_what_is_lost_is_told() -> None:
 def test_an_asset_without_physics_loads_for_kinematics(tmp_path: Path) -> None:
     asset = cabinet_asset(physics=False)
     positions = random_positions(asset)
-    reading = read_yourdfpy(export(asset, tmp_path / "urdf"), positions)
+    reading = read_yourdfpy(export(asset, tmp_path / "urdf"), [positions])[0]
     for name, pose in forward(asset, positions).items():
         np.testing.assert_allclose(reading.poses[name], pose, atol=1e-6)
