@@ -13,7 +13,9 @@ COG := COLUMNS=80 $(BIN)/cog
 SCHEMA := $(BIN)/python -c 'from simart_kit import asset_schema, describe; \
 	print(describe.schema_text(asset_schema.AssetTable), end="")'
 WHEEL := build/wheel
-# A process for each processor; one that runs out of tests takes those of another.
+# Modules are compiled once, not by every process that a test starts.
+PYTEST := PYTHONDONTWRITEBYTECODE= OMP_NUM_THREADS=1 $(BIN)/pytest
+# A process for each processor, of one thread; one that runs out of tests takes those of another.
 PARALLEL := -n auto --dist worksteal
 
 JUDGE := PYTHONPATH=tests $(BIN)/python -m judges --judges "$(JUDGES)" --assets "$(ASSETS)"
@@ -29,7 +31,7 @@ demo: $(APP)  ## Convert the example cabinet to URDF, MJCF and USD.
 	$(BIN)/simart-kit convert examples/cabinet.glb --out out/cabinet
 
 test: $(DEV)  ## Run the tests, on all processors.
-	$(BIN)/pytest $(PARALLEL)
+	$(PYTEST) $(PARALLEL)
 
 coverage: $(DEV)  ## The same, more slowly, and report what they cover of the core.
 	$(BIN)/coverage erase
@@ -38,7 +40,7 @@ coverage: $(DEV)  ## The same, more slowly, and report what they cover of the co
 	$(BIN)/coverage report
 
 slow: $(DEV)  ## Run the tests that take long: the full-size model.
-	$(BIN)/pytest -m slow
+	$(PYTEST) -m slow
 
 check: lint types test docs-check  ## All of lint, types, test and docs-check.
 

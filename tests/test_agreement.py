@@ -139,7 +139,9 @@ def painted(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, sk.Result]:
     bare.export(folder / "painted.glb")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("simart_kit.render.write_preview", lambda asset, path: path)
-        return folder / "painted.glb", sk.convert(folder / "painted.glb", out=folder / "out", record=False)
+        sets = ['modify=[{use="scale"}]']  # physics has no colours
+        result = sk.convert(folder / "painted.glb", out=folder / "out", record=False, sets=sets)
+    return folder / "painted.glb", result
 
 
 @pytest.mark.parametrize("form", FORMATS)

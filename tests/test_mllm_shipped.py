@@ -44,6 +44,7 @@ def overlaps(mesh: Mesh, true, said) -> list[float]:
     ]
 
 
+@pytest.mark.slow
 def test_parts_are_where_parts_are_and_move():
     found, whole, moving = [], [], 0
     for category, number in OBJECTS:
@@ -64,9 +65,8 @@ def test_a_described_part_is_found_better_than_by_taking_everything():
     assert score_grounding(mesh, lid, grounded.faces).iou > score_grounding(mesh, lid, lid | ~lid).iou
 
 
-@pytest.mark.parametrize("number", range(2))
-def test_the_same_object_is_answered_alike(number):
-    mesh, _ = mesh_and_parts("scissors", number)
+def test_the_same_object_is_answered_alike():
+    mesh, _ = mesh_and_parts("scissors", 1)
     one, two = Simart().segment(mesh), Simart().segment(mesh)
     assert np.array_equal(one.face_part, two.face_part)
     assert one.joints == two.joints

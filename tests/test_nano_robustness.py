@@ -9,6 +9,7 @@ import pytest
 import torch
 from safetensors.torch import load_file, save_file
 from simart_kit_plugins.nano.config import NanoConfig
+from simart_kit_plugins.nano.meshes import MOST_PIECES
 from simart_kit_plugins.nano.network import NanoNetwork
 from simart_kit_plugins.nano.stored_model import CONFIG_FILE, WEIGHTS_FILE, read_model
 from simart_kit_plugins.nano.weights import save_network
@@ -101,7 +102,8 @@ def all_twice():
 
 
 def many_small_boxes():
-    return boxes(small_grid(500), (0.6, 0.6, 0.6))
+    """More than the pieces that the network sees."""
+    return boxes(small_grid(MOST_PIECES + 16), (0.6, 0.6, 0.6))
 
 
 def objects_side_by_side():

@@ -60,7 +60,10 @@ def test_python_block_does_what_its_comments_say(home: Path) -> None:
     assert np.arccos((np.trace(door[:3, :3]) - 1) / 2) == pytest.approx(0.6)
 
 
-def test_commands_run_in_the_order_of_the_page(home: Path) -> None:
+@pytest.mark.slow
+def test_commands_run_in_the_order_of_the_page(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # Pictures of conversions have tests of their own.
+    monkeypatch.setattr("simart_kit.render.write_preview", lambda asset, path: path)
     assert len(COMMANDS) >= 6
     for command in COMMANDS:
         words = shlex.split(command, comments=True)

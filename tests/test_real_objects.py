@@ -53,9 +53,10 @@ def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def quick(tmp_path: Path, no_picture: None) -> Convert:
-    """Convert without formats and recording, too."""
+    """Convert as far as parts, joints and sizes go: without physics, formats and recording."""
+    moving = 'modify=[{use="scale"},{use="snap"},{use="sweep"}]'
     return lambda name: sk.convert(
-        source(name), "geometric", out=tmp_path / name, record=False, sets=["export=[]"]
+        source(name), "geometric", out=tmp_path / name, record=False, sets=["export=[]", moving]
     )
 
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
+import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+import simart_kit as sk
 from simart_kit.cli.main import run
 
 from .export_cases import folder_hashes
@@ -115,13 +118,11 @@ def test_a_mistake_is_one_line_and_leaves_nothing(
 
 
 @pytest.fixture(scope="module")
-def good(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def good(tmp_path_factory: pytest.TempPathFactory, converted: Callable[[str], sk.Result]) -> Path:
     """A good conversion, and a plugin file beside it."""
     home = tmp_path_factory.mktemp("good")
     (home / "faulty.py").write_text(SEGMENTER, encoding="utf-8")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("simart_kit.render.write_preview", lambda asset, path: path)
-        assert run(["convert", str(EXAMPLE), "--recipe", "usd", "--out", str(home / "out"), "--quiet"]) == 0
+    shutil.copytree(converted("example").folder, home / "out")
     return home
 
 
