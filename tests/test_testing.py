@@ -155,7 +155,7 @@ def test_run_recipe_converts_a_mesh_in_memory(
 
 def test_run_recipe_takes_a_file_and_built_in_plugins(run_recipe: RunRecipe) -> None:
     example = Path(__file__).resolve().parents[1] / "examples" / "cabinet.glb"
-    result = run_recipe(example, {"extends": "default", "export": []})
+    result = run_recipe(example, {"extends": "default", "modify": [], "export": []})
     assert len(result.asset.mesh.faces) > 1000
 
 
