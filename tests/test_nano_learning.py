@@ -14,7 +14,7 @@ from simart_kit_plugins.nano.losses import losses
 from simart_kit_plugins.nano.network import NanoNetwork
 from simart_kit_plugins.nano.store import load, save, stored
 from simart_kit_plugins.nano.truth import KINDS
-from simart_kit_plugins.nano.varying import fused, placed, welded
+from simart_kit_plugins.nano.varying import fused, placed
 
 from .test_generated_objects import MADE
 
@@ -70,22 +70,6 @@ def test_fused_pieces_have_no_gaps_in_their_numbers():
     changed = fused(piece, points, np.random.default_rng(5))
     assert np.array_equal(np.unique(changed), np.arange(changed.max() + 1))
     assert not np.array_equal(changed, piece)
-
-
-def test_welded_pieces_are_fewer_and_of_one_body_each():
-    piece, body = np.repeat(np.arange(12), 5), np.repeat([0, 1, 2], 20)
-    places = np.random.default_rng(0).normal(size=(60, 3))
-    counts = set()
-    for seed in range(20):
-        changed = welded(piece, body, places, np.random.default_rng(seed))
-        assert np.array_equal(np.unique(changed), np.arange(changed.max() + 1))
-        for one in range(changed.max() + 1):
-            assert len(set(body[changed == one])) == 1
-        for one in range(12):
-            assert len(set(changed[piece == one])) == 1
-        counts.add(changed.max() + 1)
-    assert min(counts) == 3
-    assert len(counts) > 3
 
 
 def test_an_example_has_candidates_for_each_part_that_shows(examples):

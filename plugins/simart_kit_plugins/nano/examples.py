@@ -17,13 +17,13 @@ from .part_lines import part_lines
 from .scene import Pieces, pieces_of
 from .superfaces import superfaces
 from .truth import KINDS, PartTruth, majority, right_candidates
-from .varying import fused, placed, welded
+from .varying import fused, placed
 from .visibility import visible
 
 # Points of a cloud, about; pieces of a cloud at most, of solids and of skins.
 POINTS, MOST_PIECES, SUPERFACES = 1536, 160, 192
-# How often an object is one skin, lost its inside, is of fewer solids, or has pieces fused and split.
-_SKIN, _HOLLOW, _WELDED, _MIXED = 0.25, 0.25, 0.55, 0.4
+# How often an object is one skin, has lost its inside, or has pieces fused and split.
+_SKIN, _HOLLOW, _MIXED = 0.3, 0.25, 0.4
 _NOISE = 0.002
 
 
@@ -87,10 +87,7 @@ def _cloud(made: GeneratedObject, generator: np.random.Generator) -> tuple[Cloud
         samples = sample_evenly(areas(triangles), 3 * POINTS, generator)
     else:
         mesh = Mesh(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
-        piece = find_segments(mesh).face_segment
-        if generator.random() < _WELDED:
-            piece = welded(piece, body, triangles.mean(axis=1), generator)
-        piece = np.minimum(piece, MOST_PIECES - 1)
+        piece = np.minimum(find_segments(mesh).face_segment, MOST_PIECES - 1)
         samples = sample_pieces(areas(triangles), piece, POINTS, generator)
     points = np.einsum("nk,nkx->nx", samples.weights, triangles[samples.face])
     kept = np.ones(len(points), dtype=np.bool_)

@@ -48,35 +48,6 @@ def _turn(generator: np.random.Generator) -> FloatArray:
     return np.round(turn, 15)
 
 
-def welded(piece: IntArray, body: IntArray, places: FloatArray, generator: np.random.Generator) -> IntArray:
-    """(F,) pieces where those of one body are fewer, as a modeller who drew them in one go leaves them.
-
-    Half of the time a body is one piece as a whole; else each piece joins its nearest larger one of the same
-    body as often as a share says that differs from object to object.
-
-    Args:
-        piece: (F,) of the faces, 0.. without gaps.
-        body: (F,) of the faces.
-        places: (F, 3) middles of the faces.
-        generator: of the choice.
-    """
-    share = 1.0 if generator.random() < 0.5 else generator.uniform(0.2, 0.9)
-    count = int(piece.max()) + 1
-    faces = np.bincount(piece, minlength=count)
-    middles = np.stack([np.bincount(piece, column, count) for column in places.T], axis=1) / faces[:, None]
-    owner = np.zeros(count, dtype=np.int64)
-    owner[piece] = body
-    merged = np.arange(count)
-    for one in np.unique(owner):
-        inside = np.flatnonzero(owner == one)
-        inside = inside[np.argsort(-faces[inside], kind="stable")]
-        for k, it in enumerate(inside[1:], start=1):
-            if generator.random() < share:
-                near = np.linalg.norm(middles[inside[:k]] - middles[it], axis=1).argmin()
-                merged[it] = merged[inside[near]]
-    return np.asarray(np.unique(merged[piece], return_inverse=True)[1].reshape(-1))
-
-
 def fused(piece: IntArray, points: FloatArray, generator: np.random.Generator) -> IntArray:
     """(N,) pieces of which some neighbours are one, and some large ones are two.
 
