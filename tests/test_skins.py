@@ -23,7 +23,7 @@ Box = tuple[tuple[int, int, int], tuple[int, int, int]]
 
 def skin(solid: Sequence[Box], hollow: Sequence[Box] = ()) -> Mesh:
     """The closed skin of boxes, and of boxes taken out of them, in cells of a hundredth of a metre."""
-    grid = np.ones((112, 112, 112))
+    grid = np.ones(np.max([high for _, high in solid], axis=0) + 12)
     for boxes, value in ((solid, -1.0), (hollow, 1.0)):
         for low, high in boxes:
             grid[tuple(slice(a + 5, b + 5) for a, b in zip(low, high, strict=True))] = value
@@ -130,18 +130,28 @@ def test_the_two_faces_of_a_board_are_one_piece() -> None:
 
 
 class TestPartedSides:
-    def drawers(self, *, behind: bool) -> list[str]:
-        """Labels of what is found on a block with three slabs before it, and as many behind it."""
-        slabs: list[Box] = [((2, -3, low), (48, 0, low + 20)) for low in (2, 26, 50)]
-        after: list[Box] = [((x, 24, z), (u, 27, w)) for (x, _, z), (u, _, w) in slabs]
-        found = Geometric().segment(skin([((0, 0, 0), (50, 24, 72)), *slabs, *(after if behind else ())]))
-        return [guess.label for guess in found.parts]
+    SLABS: Sequence[Box] = [((2, -3, low), (50, 0, low + 18)) for low in (2, 24)]
+
+    def labels(self, more: Sequence[Box]) -> list[str]:
+        """Labels of what is found on a block with more boxes on it."""
+        return [guess.label for guess in Geometric().segment(skin([((0, 0, 0), (52, 14, 44)), *more])).parts]
 
     def test_wide_slabs_above_one_another_before_a_plain_block_are_drawers(self) -> None:
-        assert self.drawers(behind=False) == ["body", "drawer", "drawer", "drawer"]
+        assert self.labels(self.SLABS) == ["body", "drawer", "drawer"]
 
     def test_a_block_that_is_parted_alike_on_both_sides_stays(self) -> None:
-        assert self.drawers(behind=True) == ["body"]
+        behind: list[Box] = [((x, 14, z), (u, 17, w)) for (x, _, z), (u, _, w) in self.SLABS]
+        assert self.labels([*self.SLABS, *behind]) == ["body"]
+
+    def test_knobs_on_both_sides_of_the_middle_are_those_of_two_doors(self) -> None:
+        assert self.labels([((x, -3, 20), (x + 3, 0, 24)) for x in (19, 30)]) == ["body", "door", "door"]
+
+
+def test_two_boards_side_by_side_in_two_tracks_slide() -> None:
+    leaves: list[Box] = [((2, 0, 3), (31, 4, 57)), ((29, 4, 3), (58, 8, 57))]
+    rails: list[Box] = [((0, -3, 0), (60, 11, 3)), ((0, -3, 57), (60, 11, 60))]
+    found = Geometric().segment(skin([*leaves, *rails]))
+    assert [guess.label for guess in found.parts] == ["body", "sliding_door", "sliding_door"]
 
 
 def test_a_coarse_skin_is_cut_at_its_creases() -> None:

@@ -17,6 +17,7 @@ from ..topology import without_gaps
 from .boards import with_faces_joined
 from .frames import with_frames_shared_out
 from .graph import SkinGraph, skin_graph, unit
+from .partings import with_fronts_parted
 
 # Radius of the surroundings, as a share of the longest side, and the most steps that they are wide.
 _RADIUS, _STEPS = 0.022, 40
@@ -59,7 +60,8 @@ def relief_pieces(mesh: Mesh, corners: IntArray, kept: IntArray) -> IntArray:
     piece = graph.filled(graph.pieces(barrier), barrier, _LEAST)
     piece = graph.filled(piece, _narrow(graph, piece)[piece], _LEAST)
     piece = with_frames_shared_out(graph, piece, facing)
-    return _of_faces(with_faces_joined(graph, piece, facing, faces), faces)
+    piece = with_fronts_parted(graph, with_faces_joined(graph, piece, facing, faces), facing)
+    return _of_faces(piece, faces)
 
 
 def _height(graph: SkinGraph, facing: FloatArray) -> FloatArray:

@@ -78,7 +78,9 @@ def edge_score(view: View, hinge: Candidate, around: Surroundings) -> Score:
     """Evidence for a hinge on one edge."""
     across, up = view.handle_place
     opposite = {"left": across, "right": -across, "bottom": up, "top": -up}[hinge.edge]
-    hardware = _hardware_on(view, hinge, around)
+    meets = _neighbour_beyond(view, hinge, around)
+    # What is of neither of two leaves, where they meet, is a lock or a handle.
+    hardware = [] if meets else _hardware_on(view, hinge, around)
     upright = hinge.edge in ("left", "right")
     lid = view.facing == "top"
     bar = view.handle is not None and view.handle.size[0] > view.handle.size[1]
@@ -93,7 +95,7 @@ def edge_score(view: View, hinge: Candidate, around: Surroundings) -> Score:
             abs(view.ajar) > AJAR and upright and (view.ajar < 0) == (hinge.edge == "left"),
             "ajar from this edge",
         ),
-        (-0.7, _neighbour_beyond(view, hinge, around), ""),
+        (-0.7, meets, ""),
         (0.3, _at_body_edge(view, hinge), "at the outer edge of the body"),
         (-0.6, not upright and not lid, ""),
         (0.5, lid and hinge.edge == "top", "lids open from the back"),

@@ -206,7 +206,7 @@ def _carried(boxes: list[Box], piece: int) -> tuple[int, ...]:
         if i != piece
         and np.prod(box.size[:2]) > large
         and _within(box, panel, LOOSE)
-        and box.lower[2] >= panel.lower[2] - TOUCH
+        and panel.lower[2] - TOUCH <= box.lower[2] <= panel.upper[2] + 2 * TOUCH
     )
     return tuple(dict.fromkeys((*_inlays(boxes, piece), *lying)))
 

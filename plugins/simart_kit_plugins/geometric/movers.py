@@ -12,7 +12,7 @@ from .fronts import OPEN, Front, find_fronts, thin
 from .sashes import passing, slides_over
 from .scene import FACINGS, Scene
 from .siblings import twins
-from .skin_fronts import leaves, parted_side, stacked
+from .skin_fronts import boards, leaves, on_tracks, parted_side, stacked
 
 ENCLOSED = 0.85  # share of rays behind a panel that must meet something for a cavity
 SHALLOWEST = 0.05  # a cavity is at least this deep
@@ -48,7 +48,8 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     """Doors, drawers and lids. A front with a handle counts on any side; one without, on the main side only.
 
     On a fused skin every patch closes the cavity within. There those with handles count, unless they take a
-    whole side of the body, boards with a handle, and the panels of a parted side.
+    whole side of the body, boards with a handle and their twins, boards in two tracks, and the panels of a
+    parted side.
     """
     fronts = {facing: find_fronts(scene, contacts, facing, fused) for facing in FACINGS}
     main = _main_side(fronts)
@@ -62,7 +63,10 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
             scored.append((score, front))
     if fused:
         told = {front.piece for _, front in scored}
-        bare = [*leaves(scene, fronts), *parted_side(scene, fronts)]
+        able = boards(scene, fronts)
+        sliding = on_tracks(scene, able)
+        tracks = {front.piece for front in sliding}
+        bare = [*leaves(scene, able), *sliding, *parted_side(scene, fronts)]
         scored += [(_BARE, front) for front in bare if front.piece not in told]
     scored = _without_skins(scored)
     scored += [(_TWIN, front) for front in twins(scene, [front for _, front in scored], able)]

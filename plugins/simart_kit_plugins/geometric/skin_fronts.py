@@ -9,8 +9,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from .fronts import Front, thin
+from .fronts import OPEN, Front, thin
 from .scene import FACINGS, Scene
+from .siblings import alike
 from .views import View, view_part
 
 _OPPOSITE = {"front": "back", "back": "front", "left": "right", "right": "left"}
@@ -31,6 +32,8 @@ _TWO_SIDED = 0.3  # share of a leaf's surface that each of its faces has
 # Share of its panel that a handle covers at most, and of either side: a moulding is as long as what it is on.
 _KNOB, _BAR = 0.12, 0.6
 _OUT = 0.008  # diagonals that it stands out
+_BESIDE_AT = 0.75  # widths between the middles of two leaves that pass by each other, at least
+_TRACK = (0.008, 0.08)  # diagonals between their tracks
 
 
 def parted_side(scene: Scene, fronts: Mapping[str, Sequence[Front]]) -> list[Front]:
@@ -58,13 +61,39 @@ def _above(one: Front, other: Front) -> bool:
     return bool(in_row and ends[:, 2].max() < 2 * _LEVEL and abs(between) < _LEVEL)
 
 
-def leaves(scene: Scene, fronts: Mapping[str, Sequence[Front]]) -> list[Front]:
-    """Boards with two faces that stand upright and bear a handle."""
+def leaves(scene: Scene, upright: Sequence[Front]) -> list[Front]:
+    """Boards that bear a handle."""
+    return [front for front in upright if has_handle(scene, front)]
+
+
+def on_tracks(scene: Scene, upright: Sequence[Front]) -> list[Front]:
+    """Boards alike, side by side in two tracks, before and behind which one may pass."""
+    free = [front for front in upright if front.backed < OPEN]
+    return [one for one in free if any(_passes(scene, one, other) for other in free)]
+
+
+def _passes(scene: Scene, one: Front, other: Front) -> bool:
+    if one.facing != other.facing or not alike(scene, one, other):
+        return False
+    apart = np.abs(one.box.center - other.box.center)[:2] / one.box.size[:2]
+    step = abs(_middle(scene, one) - _middle(scene, other))
+    return bool(_BESIDE_AT < apart[0] < 1 + _LEVEL and apart[1] < _LEVEL and _TRACK[0] < step < _TRACK[1])
+
+
+def _middle(scene: Scene, front: Front) -> float:
+    """Where its surface lies on the whole [w]."""
+    faces = scene.faces_of((front.piece,))
+    places = scene.triangles[faces].mean(axis=1) @ FACINGS[front.facing][2]
+    return float(np.average(places, weights=scene.face_areas[faces]))
+
+
+def boards(scene: Scene, fronts: Mapping[str, Sequence[Front]]) -> list[Front]:
+    """Tall ones with two faces, which stand upright."""
     return [
         front
         for side in _OPPOSITE
         for front in fronts[side]
-        if front.tall > _TALL and front.share > _LEAF and _is_board(scene, front) and has_handle(scene, front)
+        if front.tall > _TALL and front.share > _LEAF and _is_board(scene, front)
     ]
 
 
