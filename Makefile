@@ -39,7 +39,7 @@ coverage: $(DEV)  ## The same, more slowly, and report what they cover of the co
 	$(BIN)/coverage combine --quiet
 	$(BIN)/coverage report
 
-slow: $(DEV)  ## Run the tests that take long: the full-size model.
+slow: $(DEV)  ## Run the tests that take long: full-size model, trainings, installations.
 	$(PYTEST) -m slow
 
 check: lint types test docs-check  ## All of lint, types, test and docs-check.

@@ -27,6 +27,8 @@ from .finetune_cases import GRID, box, codec, data, model, plan, voxels
 from .mllm_cases import SIZE
 from .test_bench_mllm_forms import without_zero_token
 
+pytestmark = pytest.mark.slow
+
 SIZES = {"longest": 6144, "batch_tokens": 6144, "constrained": True, "grounding_share": 0.0, "pool": 4}
 
 

@@ -29,6 +29,8 @@ from simart_kit.testing.meshes import box
 
 from .vqvae_cases import lively
 
+pytestmark = pytest.mark.slow
+
 TRAINING = {"stage1_steps": 2, "stage2_steps": 6, "batch_size": 2, "warm_up": 4, "checkpoint_every": 100}
 KEYS = ["zero", "16x8x8", "codebook-x2", "force-sparse", "dense"]
 

@@ -18,6 +18,8 @@ from simart_kit.errors import BadInputError
 
 from .finetune_cases import box, data, model, plan
 
+pytestmark = pytest.mark.slow
+
 
 def shards(picture=False):
     """Two shards of six records."""

@@ -11,6 +11,8 @@ import pytest
 
 from simart_kit.testing.meshes import box
 
+pytestmark = pytest.mark.slow
+
 FILES = {
     "pyproject.toml": """
         [build-system]

@@ -13,6 +13,8 @@ from simart_kit.errors import BadInputError, OutputError
 
 from .test_vqvae_training import box_grids, quick, started
 
+pytestmark = pytest.mark.slow
+
 GRIDS = box_grids()
 
 
