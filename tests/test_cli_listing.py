@@ -107,9 +107,9 @@ def test_start_up_takes_little_more_cpu_time_than_its_libraries():
         [sys.executable, "-m", "simart_kit", *arguments] for arguments in (["--help"], ["plugins", "list"])
     ]
     # The first start compiles modules.
-    seconds = [[_cpu_seconds(command) for command in (libraries, *start_up)] for _ in range(3)][1:]
+    seconds = [[_cpu_seconds(command) for command in (libraries, *start_up)] for _ in range(4)][1:]
     least_of_libraries, *least = map(min, zip(*seconds, strict=True))
-    assert max(least) < 3 * least_of_libraries
+    assert max(least) < 3.5 * least_of_libraries
 
 
 def _cpu_seconds(command):

@@ -101,20 +101,20 @@ def test_the_segmenter_that_set_chooses_is_meant(home, capfd):
     ],
 )
 def test_a_segmenter_without_the_option_is_told_before_anything_is_done(home, capfd, arguments, told):
-    before = sorted(home.rglob("*"))
+    before = _files(home)
     assert (
         run(["convert", "cupboard.fake", "--plugin", "lookers.py", "--recipe", "geometric", *arguments]) == 2
     )
     assert re.fullmatch(f"error: {told}\n", capfd.readouterr().err)
-    assert sorted(home.rglob("*")) == before
+    assert _files(home) == before
 
 
 @pytest.mark.parametrize("missing", ["none.jpg", ".", "x" * 300])
 def test_a_photo_that_is_not_there_is_told_before_anything_is_done(home, capfd, missing):
-    before = sorted(home.rglob("*"))
+    before = _files(home)
     assert run([*CONVERT, "--image", missing]) == 2
     assert capfd.readouterr().err == f"error: --image {missing}: there is no such file\n"
-    assert sorted(home.rglob("*")) == before
+    assert _files(home) == before
 
 
 @pytest.mark.parametrize("option", ["--image", "--text"])
@@ -128,3 +128,8 @@ def test_options_that_are_not_given_change_nothing():
     assert shorthand_sets(none, "no recipe at all", (), Plugins()) == []
     with pytest.raises(RecipeError, match="unknown recipe"):
         shorthand_sets({**none, "text": ""}, "no recipe at all", (), Plugins())
+
+
+def _files(home):
+    """All files, but what Python keeps of the plugin that it imported."""
+    return sorted(path for path in home.rglob("*") if "__pycache__" not in path.parts)
