@@ -14,8 +14,8 @@ SCHEMA := $(BIN)/python -c 'from simart_kit import asset_schema, describe; \
 	print(describe.schema_text(asset_schema.AssetTable), end="")'
 WHEEL := build/wheel
 # Modules are compiled once, not by every process that a test starts.
-PYTEST := PYTHONDONTWRITEBYTECODE= OMP_NUM_THREADS=1 $(BIN)/pytest
-# A process for each processor, of one thread; one that runs out of tests takes those of another.
+PYTEST := PYTHONDONTWRITEBYTECODE= $(BIN)/pytest
+# A process for each processor; one that runs out of tests takes those of another.
 PARALLEL := -n auto --dist worksteal
 
 JUDGE := PYTHONPATH=tests $(BIN)/python -m judges --judges "$(JUDGES)" --assets "$(ASSETS)"

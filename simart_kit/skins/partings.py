@@ -82,8 +82,8 @@ def _within(graph: SkinGraph, face: _Face, handles: FloatArray) -> IntArray:
     out = np.flatnonzero(places[:, 2] > face.level + _OUT * graph.size)
     low, high = handles[:, 0], handles[:, 1]
     at = places[out, None, :2]
-    within = np.asarray((at >= low) & (at <= high)).all(axis=(2,))
-    return np.asarray(out[np.asarray(within).any(axis=1)])
+    within = np.all((at >= low) & (at <= high), axis=2)
+    return np.asarray(out[np.any(within, axis=1)])
 
 
 def _faces(graph: SkinGraph, facing: FloatArray, members: IntArray) -> Iterator[_Face]:

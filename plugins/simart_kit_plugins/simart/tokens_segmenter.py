@@ -11,16 +11,14 @@ from pydantic import Field
 from simart_kit import Note, PartGuess, Segmentation, Segmenter
 from simart_kit.errors import BadInputError
 
-from .codec import decode_tokens, object_frame, occupancy, part_seeds
-from .default_model import load_model
 from .labelling import TransferOptions, labelled
-from .tokens_evidence import Decoded, evidence
-from .tokens_file import TokensFile, read_tokens_file
 
 if TYPE_CHECKING:
     from simart_kit import Mesh
 
     from .default_model import LoadedModel
+    from .tokens_evidence import Decoded
+    from .tokens_file import TokensFile
 
 
 class Tokens(Segmenter):
@@ -51,6 +49,11 @@ class Tokens(Segmenter):
             BadInputError: no file is named, it cannot be read, it is of another model, or a part decodes to
                 nothing.
         """
+        from .codec import part_seeds
+        from .default_model import load_model
+        from .tokens_evidence import evidence
+        from .tokens_file import read_tokens_file
+
         if not self.options.file:
             raise BadInputError(
                 "no tokens file is named: add --set segmenter.options.file=parts.tokens.json, "
@@ -73,6 +76,9 @@ class Tokens(Segmenter):
 
 
 def _decoded(loaded: LoadedModel, file: TokensFile, mesh: Mesh) -> Decoded:
+    from .codec import decode_tokens, object_frame, occupancy
+    from .tokens_evidence import Decoded
+
     frame = object_frame(mesh)
     grids = decode_tokens(loaded.model, [file.object, *(part.tokens for part in file.parts)])
     return Decoded(frame, occupancy(mesh.triangles, frame), grids[0], grids[1:])
