@@ -2,7 +2,7 @@
 
 Both run in processes of their own and write to the same kind of folder: the best of several goes, in which
 ours, as in a conversion, comes after the preview and the other formats, whose work on the asset it shares;
-and once more on an asset fresh from its folder.
+on an asset fresh from its folder; and there without the thumbnail, which the converter does not draw.
 
 Usage: python tests/bench_usd.py [--goes N]
 """
@@ -47,9 +47,13 @@ def main() -> None:
         print(f"{faces} faces, {len(made.asset.parts)} parts, best of {goes}")
         theirs = their_seconds(made.paths["urdf"], folder, goes)
         print(f"  URDF -> USD by {CONVERTER}  {theirs:.3f} s")
-        for before in (("urdf", "mjcf"), ()):
-            ours = min(our_seconds(folder / "out", folder / "again", before) for _ in range(goes))
-            words = "in a conversion" if before else "by itself"
+        for words, before, thumbnail in (
+            ("in a conversion", ("urdf", "mjcf"), True),
+            ("by itself", (), True),
+            ("no thumbnail", (), False),
+        ):
+            again = folder / "again"
+            ours = min(our_seconds(folder / "out", again, before, thumbnail) for _ in range(goes))
             print(f"  ours {words:<16}  {ours:.3f} s, {theirs / ours:.1f} times as fast")
 
 
@@ -64,7 +68,7 @@ def their_seconds(urdf: Path, folder: Path, goes: int) -> float:
     return min(float(line) for line in done.stdout.split())
 
 
-def our_seconds(source: Path, out: Path, before: tuple[str, ...]) -> float:
+def our_seconds(source: Path, out: Path, before: tuple[str, ...], thumbnail: bool) -> float:
     """One USD export of a converted asset, after its preview and other formats if there are any [s]."""
     shutil.rmtree(out, ignore_errors=True)
     asset = load_asset(source)
@@ -72,13 +76,14 @@ def our_seconds(source: Path, out: Path, before: tuple[str, ...]) -> float:
     if before:
         write_preview(asset, out / "preview.png")
     for format_ in before:
-        _export(format_, asset, out / format_)
-    return _export("usd", asset, out / "usd")
+        _export(format_, asset, out / format_, {})
+    return _export("usd", asset, out / "usd", {"thumbnail": thumbnail})
 
 
-def _export(format_: str, asset: Asset, folder: Path) -> float:
+def _export(format_: str, asset: Asset, folder: Path, options: dict[str, object]) -> float:
     plugins = Plugins()
     use = next(use for use in load_recipe(format_, plugins).export if use.use == format_)
+    use = use.model_copy(update={"options": {**use.options, **options}})
     stage, _ = build(use, Exporter, plugins, 0)
     folder.mkdir()
     start = time.perf_counter()

@@ -7,7 +7,7 @@ import numpy as np
 from ..arrays import BoolArray, Float32Array, FloatArray, IntArray
 from ..mesh import Mesh
 from ..srgb import decoded, srgb_to_linear
-from .texture import Texture
+from .texture import texture
 
 
 class Appearance:
@@ -27,7 +27,7 @@ class Appearance:
         self._colors = None if mesh.colors is None else decoded(mesh.colors)
         self._paint = None if paint is None else _decoded_paint(paint)
         self._textures = [
-            None if m.base_color_image is None or mesh.uv is None else Texture(m.base_color_image)
+            None if m.base_color_image is None or mesh.uv is None else texture(m.base_color_image)
             for m in mesh.materials
         ]
 
@@ -61,11 +61,11 @@ class Appearance:
         if self._colors is not None:
             result *= _mixed(self._colors, corners, weights)
         for index in np.unique(material):
-            texture = self._textures[index]
-            if texture is not None and self._uv is not None:
+            picture = self._textures[index]
+            if picture is not None and self._uv is not None:
                 at = np.flatnonzero(material == index)
                 uv = _mixed(self._uv, corners[at], weights[at])
-                result[at] *= texture.sample(uv, footprint[at] * _uv_density(self._mesh, face[at]))
+                result[at] *= picture.sample(uv, footprint[at] * _uv_density(self._mesh, face[at]))
         if self._paint is not None:
             _lay_over(result, self._paint[face])
         return result

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import ByteArray, Float32Array
+from ..kept import kept
 from ..mesh import Image
 from ..srgb import decoded
 
@@ -13,7 +14,7 @@ class Texture:
     """A picture that repeats, with smaller versions of itself for points that cover many of its pixels."""
 
     def __init__(self, image: Image) -> None:
-        self._levels: list[ByteArray] = [image.pixels]
+        self._levels = {0: image.pixels}
         self.translucent = bool(image.pixels[..., 3].min() < 255)
 
     def sample(self, uv: Float32Array, width: Float32Array) -> Float32Array:
@@ -27,9 +28,17 @@ class Texture:
         return result
 
     def _level(self, number: int) -> ByteArray:
-        while len(self._levels) <= number and min(self._levels[-1].shape[:2]) > 1:
-            self._levels.append(_halved(self._levels[-1]))
-        return self._levels[min(number, len(self._levels) - 1)]
+        # Threads that draw at once may make a level twice, of the same pixels.
+        if number not in self._levels:
+            larger = self._level(number - 1)
+            self._levels[number] = _halved(larger) if min(larger.shape[:2]) > 1 else larger
+        return self._levels[number]
+
+
+@kept
+def texture(image: Image) -> Texture:
+    """The texture of an image, whose smaller versions all pictures of it share."""
+    return Texture(image)
 
 
 def _bilinear(pixels: ByteArray, uv: Float32Array) -> Float32Array:
