@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .checks.ways import Ways
 
 _STOPS = 30  # on the way to each limit
-_BLOCKED = 0.001  # [m] depth that stops a joint: less is a graze, which simulators slide over
+_BLOCKED = 0.0005  # [m] depth that stops a joint: less is a graze, which simulators slide over
 _TOUCH = 1e-4  # [m] depth up to which a position counts as free
 _GRAZE, _GRAZE_SHARE = 0.002, 0.005  # how deep what makes way may go itself: [m], and of the diagonal
 

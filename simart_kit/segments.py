@@ -10,6 +10,7 @@ from .arrays import BoolArray, FloatArray, IntArray, frozen_ints
 from .mesh import Mesh
 from .skins.relief import is_fine, relief_pieces
 from .topology import connected, first_alike, half_edges, shared_by_two, touching, weld
+from .touching_solids import plugs
 from .triangles import cosines
 
 WELD_TOLERANCE = 1e-5  # of the diagonal: far below any gap that is modelled, above single precision's noise
@@ -70,12 +71,17 @@ def find_segments(
         vertex = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE)
     corners = vertex.astype(np.int32).take(mesh.faces)
     degenerate = _degenerate(mesh, corners)
+    with_area = np.flatnonzero(~degenerate)
+    plug = np.zeros((len(corners), 1), dtype=np.int64)
+    plug[with_area, 0] = plugs(mesh, corners.take(with_area, axis=0), with_area)
+    if plug.any():  # it meets nothing but itself
+        corners = corners + int(vertex.max() + 1) * plug
     first = first_alike(corners)
     duplicate = (first != np.arange(len(corners))) & ~degenerate
     kept = np.flatnonzero(~degenerate & ~duplicate)
     keys = corners
     if node_hint and mesh.face_node is not None:
-        keys = corners + int(vertex.max() + 1) * mesh.face_node[:, None]
+        keys = corners + int(corners.max() + 1) * mesh.face_node[:, None]
     found, fused = _pieces(mesh, keys.take(kept, axis=0), kept, crease, relief)
     labels = np.zeros(len(corners), dtype=np.int64)
     labels[kept] = _by_area(found, mesh.face_areas.take(kept))
