@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from .checks.ways import Ways
 
 _STOPS = 30  # on the way to each limit
-_BLOCKED = 0.0005  # [m] depth that stops a joint: less is a graze, which simulators slide over
 _TOUCH = 1e-4  # [m] depth up to which a position counts as free
 _GRAZE, _GRAZE_SHARE = 0.002, 0.005  # how deep what makes way may go itself: [m], and of the diagonal
 
@@ -192,6 +191,7 @@ def _end(model: mujoco.MjModel, joint: int, limit: float, others: FloatArray) ->
     import mujoco
 
     from .checks.ways import subtree
+    from .separation import STUCK
 
     data, mine = mujoco.MjData(model), subtree(model, int(model.jnt_bodyid[joint]))
     data.qpos[:], last = others, 0.0
@@ -199,7 +199,7 @@ def _end(model: mujoco.MjModel, joint: int, limit: float, others: FloatArray) ->
         data.qpos[model.jnt_qposadr[joint]] = stop
         mujoco.mj_fwdPosition(model, data)
         depth = _deepest(model, data, mine)
-        if depth > _BLOCKED:
+        if depth > STUCK:
             return last
         last = float(stop) if depth <= _TOUCH else last
     return limit

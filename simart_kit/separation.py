@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .arrays import FloatArray, IntArray
-from .asset import Asset, ConvexMesh, Joint
+from .asset import Asset, ConvexMesh, Joint, Limits
 from .clipping import extent, pulled_in
 from .convex_overlap import Convex, convex, gap
 from .kept import kept
-from .kinematics import Positions, rest_to_posed, span
+from .kinematics import Positions, carried, rest_to_posed, span
 from .primitive_meshes import pose
+from .sweeping import Sweep, free_range
 from .topology import connected
 
 TOLERANCE = 1e-5
@@ -21,6 +22,9 @@ TOLERANCE = 1e-5
 
 CLEARANCE = 0.0005
 """How far shapes of neighbours are kept apart at rest [m]: what touches at rest rubs and sticks."""
+
+STUCK = 0.0005
+"""How deep shapes may be in each other and still slide past [m]: deeper ones stop what a motor drives."""
 
 Pair = tuple[int, int]
 """Indices of two parts, ascending."""
@@ -82,7 +86,8 @@ def overlaps_on_the_way(asset: Asset) -> tuple[Overlap, ...]:
     """Pairs of a part and one that it moves on, whose shapes overlap somewhere on the joint's own way.
 
     Shapes are coarser than surfaces, and such a pair would stop a door short of its limit. What is fixed to
-    either part of a joint counts as that part.
+    either part of a joint counts as that part. Other parts, as the drawer above a door, make such a pair if
+    its shapes alone are in the way, not its surface.
 
     Args:
         asset: with collision shapes.
@@ -96,7 +101,33 @@ def overlaps_on_the_way(asset: Asset) -> tuple[Overlap, ...]:
         for position in _stops(span(joint)):
             met = _deepest(_posed(alone, asset, {joint.name: position}), bodies)
             found |= {pair: max(depth, found.get(pair, 0.0)) for pair, depth in met.items()}
+    for joint in asset.joints:
+        if span(joint) != (0.0, 0.0):
+            found |= _stopped_by_shapes(asset, joint, shapes, bodies, found)
     return _named(asset, found)
+
+
+def _stopped_by_shapes(
+    asset: Asset, joint: Joint, shapes: Sequence[Sequence[Convex]], bodies: IntArray, known: Collection[Pair]
+) -> dict[Pair, float]:
+    """How deep shapes of what a joint moves stand in those of others [m], at most, where surfaces go free."""
+    moved = {asset.part_index(name) for name in carried(asset, joint.child)}
+    found: dict[Pair, float] = {}
+    for position in _stops(span(joint)):
+        for pair, depth in _deepest(_posed(shapes, asset, {joint.name: position}), bodies).items():
+            if len(moved.intersection(pair)) == 1 and pair not in known:
+                found[pair] = max(depth, found.get(pair, 0.0))
+    return {
+        pair: depth for pair, depth in found.items() if depth > STUCK and _free(asset, joint, pair, moved)
+    }
+
+
+def _free(asset: Asset, joint: Joint, pair: Pair, moved: Collection[int]) -> bool:
+    """Whether the surface of one of a pair, which the joint moves, passes that of the other all the way."""
+    mine, other = sorted(pair, key=lambda part: part not in moved)
+    faces = [asset.mesh.faces[asset.face_part == part] for part in (mine, other)]
+    limited = replace(joint, kind="revolute" if joint.turns else joint.kind, limits=Limits(*span(joint)))
+    return free_range(limited, Sweep(asset.mesh.vertices, *faces), _STOPS) == span(joint)
 
 
 def _stops(ends: tuple[float, float]) -> list[float]:

@@ -48,6 +48,19 @@ def pair(one: ConvexMesh, other: ConvexMesh, joint: sk.Joint | None = None) -> s
     return sk.Asset("pair", mesh, np.repeat([0, 1], 12), parts, (joint or slide,))
 
 
+def passing(lowest: float) -> sk.Asset:
+    """A box that slides by another, whose surface begins at a height; its shape, lower, is in the way."""
+    boxes = [((0, 0, -3), (1, 1, -2)), ((0, 0, 0), (1, 1, 1)), ((2, 0, lowest), (3, 1, 4))]
+    shapes = [block(*boxes[0]), block(*boxes[1]), block((2, 0, 0.9), (3, 1, 4))]
+    names = ("body", "slider", "beside")
+    parts = tuple(sk.Part(name, collision=(shape,)) for name, shape in zip(names, shapes, strict=True))
+    joints = (
+        sk.Joint("slide", "prismatic", "body", "slider", axis=(1, 0, 0), limits=sk.Limits(0.0, 2.0)),
+        sk.Joint("lift", "prismatic", "body", "beside", axis=(0, 0, 1), limits=sk.Limits(0.0, 0.5)),
+    )
+    return sk.Asset("passing", boxes_mesh(boxes), np.repeat(range(3), 12), parts, joints)
+
+
 UNIT = block((0, 0, 0), (1, 1, 1))
 
 
@@ -153,6 +166,12 @@ class TestOverlaps:
         asset = pair(UNIT, UNIT)
         bare = asset.with_parts({"two": replace(asset.part("two"), collision=())})
         assert overlaps(bare) == overlaps_on_the_way(bare) == ()
+
+    def test_shapes_of_what_stands_beside_are_met_on_the_way_where_its_surface_is_not(self) -> None:
+        for lowest, met in ((1.1, {("slider", "beside")}), (0.5, set())):
+            asset = passing(lowest)
+            assert {(o.one, o.other) for o in overlaps_on_the_way(asset)} == met
+            assert overlaps(asset) == ()
 
 
 class TestSeparated:
