@@ -17,7 +17,7 @@ class Overlap:
 
     Attributes:
         depth: how deep their shapes overlap at most [m].
-        at_rest: whether they do at rest; otherwise on the way of the joint between them alone.
+        at_rest: whether they do at rest; otherwise on the way of a joint alone.
     """
 
     depth: float

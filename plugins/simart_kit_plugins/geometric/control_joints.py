@@ -63,7 +63,7 @@ def tilted(scene: Scene, view: View) -> Choice | None:
 
 def turned(scene: Scene, view: View) -> Choice | None:
     """About the axis that a knob is round about; with a bar across it, about the one along which it faces."""
-    points = scene.triangles[scene.labels == view.part].reshape(-1, 3)
+    points = scene.points_of(view.part)
     axis, cap = round_axis(points), measure_cap(scene, (view.part,))
     if axis is None and (cap is None or cap.narrow < _ROUNDED * cap.wide):
         return None

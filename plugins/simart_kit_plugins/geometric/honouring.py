@@ -48,7 +48,7 @@ def alternatives(scene: Scene, view: View, label: str, around: Surroundings) -> 
     for hinge in hinges(view):
         best = edge_score(view, hinge, around)
         found.append((hinged.value + best.value, hinge, hinged.reasons + best.reasons))
-    points = scene.triangles[scene.labels == view.part].reshape(-1, 3)
+    points = scene.points_of(view.part)
     axis = round_axis(points)
     if axis is not None:
         middle = view.axes @ ((points.max(axis=0) + points.min(axis=0)) / 2)

@@ -24,6 +24,7 @@ from .levers import LEVERS, levering, pierced, with_handle
 from .open_leaves import opened
 from .pivots import is_post, on_post, pivot
 from .racks import sliding_out
+from .rotors import ROTORS, about_symmetry
 from .rounds import round_axis
 from .sashes import SASHES, sliding
 from .scene import Box, Scene, make_scene
@@ -106,7 +107,7 @@ def _choose(scene: Scene, view: View, label: str, around: Surroundings) -> Choic
 
 def _spinning(scene: Scene, view: View) -> Choice | None:
     """About the axis of something round."""
-    points = scene.triangles[scene.labels == view.part].reshape(-1, 3)
+    points = scene.points_of(view.part)
     axis = round_axis(points)
     if axis is None:
         return None
@@ -117,6 +118,7 @@ def _spinning(scene: Scene, view: View) -> Choice | None:
 # What is said of parts that are called so; of none where the shape does not bear it out.
 _SPECIAL: tuple[tuple[tuple[str, ...], Callable[[Scene, View], Choice | None]], ...] = (
     (LEVERS, levering),
+    (ROTORS, about_symmetry),
     (SASHES, sliding),
     (("knob",), turned),
     (SPINNING, _spinning),
@@ -253,7 +255,7 @@ def _thickness(scene: Scene, view: View, hinge: Candidate) -> tuple[float, float
     """Where the panel begins and ends in depth [w]; at the hinge, where it stands ajar."""
     if abs(view.ajar) < _SHUT or hinge.edge not in ("left", "right"):
         return float(view.box.lower[2]), float(view.box.upper[2])
-    points = scene.triangles[scene.labels == view.part].reshape(-1, 3) @ view.axes.T
+    points = scene.points_of(view.part) @ view.axes.T
     near = np.abs(points[:, 0] - hinge.origin[0]) < 0.05 * view.box.size[0]
     return float(points[near, 2].min()), float(points[near, 2].max())
 

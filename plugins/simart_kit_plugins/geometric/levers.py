@@ -95,7 +95,7 @@ def _spindle(scene: Scene, piece: int, leaf: Box) -> bool:
     if not _through(box, leaf) or box.size.argmax() != normal:
         return False
     narrow = box.size[within].max() < _NARROW * leaf.size[within].min()
-    return bool(narrow) and is_rod(scene.triangles[scene.labels == piece].reshape(-1, 3), normal)
+    return bool(narrow) and is_rod(scene.points_of(piece), normal)
 
 
 def _through(box: Box, leaf: Box) -> bool:

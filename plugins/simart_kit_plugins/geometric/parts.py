@@ -18,6 +18,7 @@ from .movers import Mover, doubtful_movers, front_movers
 from .naming import names
 from .open_leaves import open_leaves
 from .racks import racks
+from .rotors import rotors
 from .rounds import collared, knobs, wheels
 from .scene import Scene, make_scene
 
@@ -31,7 +32,7 @@ Finder = Callable[[Scene, Contacts, Set[int]], list[Mover]]
 """Finds movers among the pieces that are not taken yet."""
 
 # After the fronts; each has what those before it left.
-_FINDERS: tuple[Finder, ...] = (open_leaves, racks, wheels, knobs, collared)
+_FINDERS: tuple[Finder, ...] = (rotors, open_leaves, racks, wheels, knobs, collared)
 
 
 def parts_of(mesh: Mesh, spec: Spec | None, max_parts: int, crease: float, node_hint: bool) -> Segmentation:

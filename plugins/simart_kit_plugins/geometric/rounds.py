@@ -52,7 +52,7 @@ def wheels(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
         diameter = box.size[2]
         if piece in taken or not 0.02 < diameter < 0.6 or box.lower[2] > ground + 0.02:
             continue
-        axis = round_axis(scene.triangles[scene.labels == piece].reshape(-1, 3))
+        axis = round_axis(scene.points_of(piece))
         if axis in (0, 1) and box.size[axis] < 0.8 * diameter:
             found.append((piece, float(diameter)))
     movers: list[Mover] = []
@@ -72,7 +72,7 @@ def knobs(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
     for piece, box in enumerate(scene.boxes):
         if piece in taken or not 0.008 < box.size.max() < 0.08:
             continue
-        if round_axis(scene.triangles[scene.labels == piece].reshape(-1, 3)) == 1:
+        if round_axis(scene.points_of(piece)) == 1:
             key = (round(float(box.center[1]), 2), round(float(box.size[2]), 3))
             groups.setdefault(key, []).append(piece)
     movers: list[Mover] = []
@@ -112,8 +112,8 @@ def collared(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
 
 def _is_collar(scene: Scene, other: int, piece: int) -> bool:
     """Whether a thinner disc lies around a round cap that stands out of it, to the front or upward."""
-    axis = round_axis(scene.triangles[scene.labels == piece].reshape(-1, 3))
-    if axis not in (1, 2) or axis != round_axis(scene.triangles[scene.labels == other].reshape(-1, 3)):
+    axis = round_axis(scene.points_of(piece))
+    if axis not in (1, 2) or axis != round_axis(scene.points_of(other)):
         return False
     collar, cap = scene.boxes[other], scene.boxes[piece]
     ratio = np.delete(collar.size, axis).max() / np.delete(cap.size, axis).max()

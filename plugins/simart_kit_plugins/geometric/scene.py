@@ -129,6 +129,10 @@ class Scene:
         edges = self.triangles[:, 1:] - self.triangles[:, :1]
         return np.cross(edges[:, 0], edges[:, 1])
 
+    def points_of(self, piece: int) -> FloatArray:
+        """(N, 3) corners of the triangles of a piece, each as often as it is one."""
+        return np.asarray(self.triangles[self.labels == piece].reshape(-1, 3))
+
     def faces_of(self, pieces: IntArray | tuple[int, ...]) -> IntArray:
         """Indices of the faces of some pieces."""
         return np.flatnonzero(np.isin(self.labels, np.asarray(pieces)))

@@ -104,10 +104,12 @@ class Nano(Segmenter):
         from .honouring import chosen, rejoined
         from .pooling import pooled
         from .proposals import of_geometry, of_network, with_body
+        from .rotors import with_rotors
 
         proposals: list[Proposal] = of_network(said, said.piece_part[seen.face_piece], seen)
         if self.options.pool:
             geometry = of_geometry(mesh, self.seed)
+            proposals = with_rotors(mesh, proposals, geometry)
             # Borders and lines by geometry are exact, but who knows the object finds more of it.
             first, second = (proposals, geometry) if said.recognised else (geometry, proposals)
             proposals = with_hardware(mesh, seen.face_piece, pooled(mesh, first, second))
