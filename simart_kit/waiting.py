@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from .arrays import BoolArray
-from .asset import Asset, Joint
+from .arrays import BoolArray, FloatArray
+from .asset import Asset, Joint, Limits
 from .kinematics import carried, rest_to_posed
 from .sweeping import Sweep, free_range, move
 
@@ -16,6 +16,7 @@ _ENOUGH = 0.5  # of the wanted travel: what comes so far waits for nothing, and 
 _SMALL, _HELD = 0.1, 0.3  # of the object's diagonal: buttons, keys and switches; triggers and grips
 # Words of what fingers press, which may take half of the object: a presenter's touchpad.
 _PRESSED, _MOST = {"button", "key", "switch", "touchpad", "trigger", "squeeze", "thumbstick"}, 0.5
+_KNOBS, _MIDDLE = {"knob", "dial"}, 0.1  # how far from its middle, of its size, a knob's line may pass
 _LITTLE, _TILT = 0.25, np.deg2rad(30.0)  # of its size that a larger thing is pressed, and how far one turns
 
 
@@ -66,30 +67,55 @@ def free_ranges(asset: Asset, steps: int, seed: int) -> dict[str, FreeRange]:
     return found
 
 
-def sinks(asset: Asset, joint: Joint, steps: int, seed: int) -> bool:
-    """Whether a joint presses something small into the part that carries it, as a button without a hole.
+def sunk(asset: Asset, joint: Joint, steps: int, seed: int) -> Joint | None:
+    """A joint that moves something small into the part that carries it, as a button without a hole.
 
-    It is small beside the object, or its label says that it is pressed; slides by less than its own length
+    It is small beside the object, or its label says that it is pressed; slides by no more than its own length
     along its axis, or turns or slides by little, as triggers and grips do; and nothing else is in its way.
+    What slides farther goes as far as that, if its label says that it is pressed. A knob, by its label, turns
+    about its own middle as far as it wants.
 
     Args:
         asset: at rest.
         joint: with limits.
         steps: stops on the way to each limit.
         seed: of the sampling.
+
+    Returns:
+        The joint with the travel that it may have; None if it may have none.
     """
     if joint.kind not in ("prismatic", "revolute"):
-        return False
+        return None
     mesh, moving = asset.mesh, _faces(asset, joint.child)
     points = mesh.vertices[mesh.faces[moving]].reshape(-1, 3)
     along, size = np.ptp(points @ np.array(joint.axis)), np.linalg.norm(np.ptp(points, axis=0))
-    named = not _PRESSED.isdisjoint(asset.part(joint.child).label.replace("_", " ").split())
+    words = set(asset.part(joint.child).label.replace("_", " ").split())
+    named = not _PRESSED.isdisjoint(words)
     little = _LITTLE * size
     most = _TILT if joint.turns else max(along, little) if size <= _SMALL * mesh.diagonal else little
+    if joint.turns and not _KNOBS.isdisjoint(words) and _within(joint, points):
+        most, named = np.inf, False
+    elif named and not joint.turns:
+        joint = _shortened(joint, float(most))
     if _wanted(joint) > most or size > (_MOST if named else _HELD) * mesh.diagonal:
-        return False
+        return None
     carrier = asset.face_part == asset.part_index(joint.parent)
-    return _swept(asset, joint, {}, carrier, steps, seed).travel == _wanted(joint)
+    free = _swept(asset, joint, {}, carrier, steps, seed).travel == _wanted(joint)
+    return joint if free else None
+
+
+def _within(joint: Joint, points: FloatArray) -> bool:
+    """Whether a line leads through the middle of (N, 3) points."""
+    off = (points.max(axis=0) + points.min(axis=0)) / 2 - np.array(joint.origin)
+    distance = np.linalg.norm(np.cross(off, np.array(joint.axis)))
+    return bool(distance < _MIDDLE * np.linalg.norm(np.ptp(points, axis=0)))
+
+
+def _shortened(joint: Joint, most: float) -> Joint:
+    """A joint whose travel, if it is longer than `most`, is shortened to that on both sides of rest alike."""
+    assert joint.limits is not None
+    share = min(1.0, most / max(_wanted(joint), 1e-12))
+    return replace(joint, limits=Limits(share * joint.limits.lower, share * joint.limits.upper))
 
 
 def _waited(asset: Asset, joint: Joint, found: Mapping[str, FreeRange], steps: int, seed: int) -> FreeRange:

@@ -149,6 +149,31 @@ class TestButton:
         named = asset.with_parts({"button": replace(asset.part("button"), label="touchpad")})
         assert Sweep().modify(named).joints == asset.joints
 
+    def test_what_is_called_a_button_goes_as_far_as_it_is_deep(self) -> None:
+        asset = self.pressed(0.05)
+        named = asset.with_parts({"button": replace(asset.part("button"), label="red_button")})
+        (joint,) = Sweep().modify(named).joints
+        assert joint.limits is not None
+        assert (joint.kind, joint.limits.lower) == ("prismatic", 0.0)
+        assert joint.limits.upper == pytest.approx(0.04)
+
+    @pytest.mark.parametrize(
+        ("label", "middle", "turns"), [("dial", 0.0, True), ("dial", 0.05, False), ("lid", 0.0, False)]
+    )
+    def test_a_knob_turns_in_its_wall_about_its_middle(self, label: str, middle: float, turns: bool) -> None:
+        limits = sk.Limits(0.0, np.radians(270))
+        joint = sk.Joint("turn", "revolute", "case", "knob", (middle, 0, 0), (0, 1, 0), limits)
+        knob: Bounds = ((-0.05, -0.04, -0.02), (0.05, 0.3, 0.02))
+        tight: list[Bounds] = [  # a wall with a hole just as wide as the knob
+            ((-1.0, 0.0, -1.0), (-0.052, 0.5, 1.0)),
+            ((0.052, 0.0, -1.0), (1.0, 0.5, 1.0)),
+            ((-0.052, 0.0, -1.0), (0.052, 0.5, -0.022)),
+            ((-0.052, 0.0, 0.022), (0.052, 0.5, 1.0)),
+        ]
+        asset = made({"case": tight, "knob": [knob]}, joint)
+        named = asset.with_parts({"knob": replace(asset.part("knob"), label=label)})
+        assert (Sweep().modify(named).joints == (joint,)) == turns
+
     @pytest.mark.parametrize(("degrees", "sinks"), [(20, True), (60, False)])
     def test_a_trigger_turns_into_its_grip_by_little(self, degrees: float, sinks: bool) -> None:
         limits = sk.Limits(0.0, np.radians(degrees))

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Geometric(Segmenter):
-    """Doors, drawers, lids, racks, wheels and controls by their shape, their handles and what lies around."""
+    """Doors, drawers, lids, racks, wheels, rotors and controls by shape, handles and what lies around."""
 
     name = "geometric"
 

@@ -48,7 +48,7 @@ class Sweep(Modifier):
     def modify(self, asset: Asset) -> Asset:
         """The asset with limits that surfaces allow; notes tell each change, warnings each stuck joint."""
         from simart_kit.clearing import held
-        from simart_kit.waiting import free_ranges, sinks
+        from simart_kit.waiting import free_ranges, sunk
 
         changed: dict[str, Joint] = {}
         told, stuck = [], []
@@ -59,7 +59,9 @@ class Sweep(Modifier):
             before = _range(joint, joint.limits.lower, joint.limits.upper)
             short = replace(joint, limits=simart_kit.Limits(free.lower, free.upper))
             stops = free.travel < self.options.least * wanted or wanted == 0
-            if stops and wanted and sinks(asset, joint, self.options.steps, self.seed):
+            pressed = sunk(asset, joint, self.options.steps, self.seed) if stops and wanted else None
+            if pressed is not None:
+                changed[name] = pressed
                 told.append(f"{joint.child}: sinks into {joint.parent}, which has no hole for it")
                 continue
             if stops:

@@ -105,8 +105,9 @@ class Nano(Segmenter):
         from .pooling import pooled
         from .proposals import of_geometry, of_network, with_body
         from .rotors import with_rotors
+        from .travel import with_travel
 
-        proposals: list[Proposal] = of_network(said, said.piece_part[seen.face_piece], seen)
+        proposals = with_travel(mesh, of_network(said, said.piece_part[seen.face_piece], seen))
         if self.options.pool:
             geometry = of_geometry(mesh, self.seed)
             proposals = with_rotors(mesh, proposals, geometry)
