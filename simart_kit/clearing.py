@@ -155,9 +155,9 @@ def _model(asset: Asset) -> mujoco.MjModel:
     from .checks.building import spec_of
     from .checks.mechanism import of_asset
     from .checks.reading import compiled_spec
-    from .separation import overlaps, overlaps_on_the_way
+    from .separation import overlaps, overlaps_on_the_way, stopped_by_shapes
 
-    met = (*overlaps(asset), *overlaps_on_the_way(asset))
+    met = (*overlaps(asset), *overlaps_on_the_way(asset), *stopped_by_shapes(asset))
     mechanism = of_asset(asset)
     links = tuple(replace(k, kind="fixed") if k.kind == "free" else k for k in mechanism.links)
     excluded = frozenset(frozenset((pair.one, pair.other)) for pair in met)

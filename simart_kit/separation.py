@@ -86,8 +86,7 @@ def overlaps_on_the_way(asset: Asset) -> tuple[Overlap, ...]:
     """Pairs of a part and one that it moves on, whose shapes overlap somewhere on the joint's own way.
 
     Shapes are coarser than surfaces, and such a pair would stop a door short of its limit. What is fixed to
-    either part of a joint counts as that part. Other parts, as the drawer above a door, make such a pair if
-    its shapes alone are in the way, not its surface.
+    either part of a joint counts as that part.
 
     Args:
         asset: with collision shapes.
@@ -101,25 +100,31 @@ def overlaps_on_the_way(asset: Asset) -> tuple[Overlap, ...]:
         for position in _stops(span(joint)):
             met = _deepest(_posed(alone, asset, {joint.name: position}), bodies)
             found |= {pair: max(depth, found.get(pair, 0.0)) for pair, depth in met.items()}
-    for joint in asset.joints:
-        if span(joint) != (0.0, 0.0):
-            found |= _stopped_by_shapes(asset, joint, shapes, bodies, found)
     return _named(asset, found)
 
 
-def _stopped_by_shapes(
-    asset: Asset, joint: Joint, shapes: Sequence[Sequence[Convex]], bodies: IntArray, known: Collection[Pair]
-) -> dict[Pair, float]:
-    """How deep shapes of what a joint moves stand in those of others [m], at most, where surfaces go free."""
-    moved = {asset.part_index(name) for name in carried(asset, joint.child)}
-    found: dict[Pair, float] = {}
-    for position in _stops(span(joint)):
-        for pair, depth in _deepest(_posed(shapes, asset, {joint.name: position}), bodies).items():
-            if len(moved.intersection(pair)) == 1 and pair not in known:
-                found[pair] = max(depth, found.get(pair, 0.0))
-    return {
-        pair: depth for pair, depth in found.items() if depth > STUCK and _free(asset, joint, pair, moved)
-    }
+@kept
+def stopped_by_shapes(asset: Asset) -> tuple[Overlap, ...]:
+    """Pairs, but those of `overlaps_on_the_way`, that a joint drives into each other by their shapes alone.
+
+    Such as a door and the drawer above it, whose surfaces pass each other all the way.
+
+    Args:
+        asset: with collision shapes.
+    """
+    found, shapes, bodies = dict[Pair, float](), _shapes(asset), rigid_bodies(asset)
+    known = {(asset.part_index(o.one), asset.part_index(o.other)) for o in overlaps_on_the_way(asset)}
+    for joint in (joint for joint in asset.joints if span(joint) != (0.0, 0.0)):
+        moved = {asset.part_index(name) for name in carried(asset, joint.child)}
+        met: dict[Pair, float] = {}
+        for position in _stops(span(joint)):
+            for pair, depth in _deepest(_posed(shapes, asset, {joint.name: position}), bodies).items():
+                if len(moved.intersection(pair)) == 1 and pair not in known:
+                    met[pair] = max(depth, met.get(pair, 0.0))
+        for pair, depth in met.items():
+            if depth > max(STUCK, found.get(pair, 0.0)) and _free(asset, joint, pair, moved):
+                found[pair] = depth
+    return _named(asset, found)
 
 
 def _free(asset: Asset, joint: Joint, pair: Pair, moved: Collection[int]) -> bool:

@@ -18,7 +18,14 @@ from simart_kit.hulls import convex_hull
 from simart_kit.kinematics import rotation
 from simart_kit.primitive_meshes import pose, primitive_shape
 from simart_kit.primitives import Primitive, PrimitiveKind
-from simart_kit.separation import CLEARANCE, overlaps, overlaps_on_the_way, rigid_bodies, separated
+from simart_kit.separation import (
+    CLEARANCE,
+    overlaps,
+    overlaps_on_the_way,
+    rigid_bodies,
+    separated,
+    stopped_by_shapes,
+)
 from simart_kit.testing.meshes import boxes_mesh
 
 Corner = tuple[float, float, float]
@@ -170,8 +177,8 @@ class TestOverlaps:
     def test_shapes_of_what_stands_beside_are_met_on_the_way_where_its_surface_is_not(self) -> None:
         for lowest, met in ((1.1, {("slider", "beside")}), (0.5, set())):
             asset = passing(lowest)
-            assert {(o.one, o.other) for o in overlaps_on_the_way(asset)} == met
-            assert overlaps(asset) == ()
+            assert {(o.one, o.other) for o in stopped_by_shapes(asset)} == met
+            assert overlaps(asset) == overlaps_on_the_way(asset) == ()
 
 
 class TestSeparated:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from simart_kit.asset import Asset
 from simart_kit.kept import kept
 from simart_kit.separation import Overlap as Met
-from simart_kit.separation import overlaps, overlaps_on_the_way, rigid_bodies, still
+from simart_kit.separation import overlaps, overlaps_on_the_way, rigid_bodies, still, stopped_by_shapes
 
 
 @dataclass(frozen=True)
@@ -33,10 +33,11 @@ def overlapping_parts(asset: Asset) -> dict[tuple[str, str], Overlap]:
     """Pairs of parts that would collide where they should not, in the asset's order.
 
     These are pairs that overlap at rest, and a part and the one that it moves on where the joint's own travel
-    makes them overlap: shapes are coarser than surfaces, and would stop a door short of its limit. Pairs that
-    MuJoCo never collides, such as a part and the one that it moves on where the base is free, are left out.
+    makes them overlap: shapes are coarser than surfaces, and would stop a door short of its limit. So are
+    other pairs that a joint drives into each other by their shapes alone. Pairs that MuJoCo never collides,
+    such as a part and the one that it moves on where the base is free, are left out.
     """
-    return _with_rest(asset, overlaps_on_the_way(asset))
+    return _with_rest(asset, (*overlaps_on_the_way(asset), *stopped_by_shapes(asset)))
 
 
 def _with_rest(asset: Asset, on_the_way: tuple[Met, ...]) -> dict[tuple[str, str], Overlap]:
@@ -69,7 +70,8 @@ def overlapping_strangers(asset: Asset) -> Mapping[tuple[str, str], Overlap]:
     jointed = [{j.parent, j.child} for j in asset.joints if j.kind != "free"]
     # On its way a joint's own two rigid bodies meet, which is news only where bodies have several parts.
     several = len(set(rigid_bodies(asset).tolist())) < len(asset.parts)
-    found = _with_rest(asset, overlaps_on_the_way(asset) if several else ())
+    own = overlaps_on_the_way(asset) if several else ()
+    found = _with_rest(asset, (*own, *stopped_by_shapes(asset)))
     return {pair: overlap for pair, overlap in found.items() if set(pair) not in jointed}
 
 

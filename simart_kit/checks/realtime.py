@@ -11,7 +11,7 @@ from ..stages import Options as StageOptions
 from . import CheckResult
 from .subject import Subject
 
-_TRIES = 3
+_TRIES = 12  # what else the processor does slows some of them
 
 
 class Realtime(Check):
@@ -37,9 +37,9 @@ class Realtime(Check):
         model, best = subject.simulation.dropped(0.0), 0.0
         for _ in range(_TRIES):
             data = mujoco.MjData(model)
-            start = time.process_time()
+            start = time.thread_time()
             mujoco.mj_step(model, data, nstep=round(self.options.seconds / model.opt.timestep))
-            best = max(best, self.options.seconds / max(time.process_time() - start, 1e-9))
+            best = max(best, self.options.seconds / max(time.thread_time() - start, 1e-9))
             if best >= self.options.factor:
                 text = f"more than {self.options.factor:g} times as fast as time"
                 return CheckResult(self.name, True, text, {"factor": self.options.factor})
