@@ -107,13 +107,15 @@ def overlaps_on_the_way(asset: Asset) -> tuple[Overlap, ...]:
 def stopped_by_shapes(asset: Asset) -> tuple[Overlap, ...]:
     """Pairs, but those of `overlaps_on_the_way`, that a joint drives into each other by their shapes alone.
 
-    Such as a door and the drawer above it, whose surfaces pass each other all the way.
+    Such as a door and the drawer above it, whose surfaces pass each other all the way. A pair whose surfaces
+    stop one of its joints is none, as a rack and the closed door before it.
 
     Args:
         asset: with collision shapes.
     """
     found, shapes, bodies = dict[Pair, float](), _shapes(asset), rigid_bodies(asset)
     known = {(asset.part_index(o.one), asset.part_index(o.other)) for o in overlaps_on_the_way(asset)}
+    stopped = set[frozenset[int]]()  # pairs of rigid bodies
     for joint in (joint for joint in asset.joints if span(joint) != (0.0, 0.0)):
         moved = {asset.part_index(name) for name in carried(asset, joint.child)}
         met: dict[Pair, float] = {}
@@ -122,9 +124,16 @@ def stopped_by_shapes(asset: Asset) -> tuple[Overlap, ...]:
                 if len(moved.intersection(pair)) == 1 and pair not in known:
                     met[pair] = max(depth, met.get(pair, 0.0))
         for pair, depth in met.items():
-            if depth > max(STUCK, found.get(pair, 0.0)) and _free(asset, joint, pair, moved):
-                found[pair] = depth
-    return _named(asset, found)
+            if depth > STUCK and _rigid(bodies, pair) not in stopped:
+                found[pair] = max(depth, found.get(pair, 0.0))
+                if not _free(asset, joint, pair, moved):
+                    stopped.add(_rigid(bodies, pair))
+    return _named(asset, {p: depth for p, depth in found.items() if _rigid(bodies, p) not in stopped})
+
+
+def _rigid(bodies: IntArray, pair: Pair) -> frozenset[int]:
+    """The rigid bodies of a pair of parts."""
+    return frozenset(int(bodies[part]) for part in pair)
 
 
 def _free(asset: Asset, joint: Joint, pair: Pair, moved: Collection[int]) -> bool:

@@ -86,7 +86,7 @@ def test_what_waits_for_a_door_and_stands_in_its_way_is_held_in_its_stead() -> N
     """The corner of a door's lip swings into the rack behind it, which the open door would let out."""
     rack: Bounds = ((0.3005, 0.0, 0.2), (0.9, 0.4, 0.3))
     leaf: Bounds = ((0.0, -0.02, 0.15), (1.0, -0.001, 0.5))
-    lip: Bounds = ((0.298, 0.0, 0.15), (0.3, 0.05, 0.5))
+    lip: Bounds = ((0.0, 0.0, 0.15), (0.3, 0.05, 0.5))
     hinge = sk.Joint("leaf_hinge", "revolute", "base", "leaf", (0, 0, 0), (0, 0, -1), sk.Limits(0.0, 1.5))
     joints = [hinge, fixed("lip", "leaf"), replace(slide("rack", 0.3), confidence=0.7)]
     result = Clear().modify(assembled(joints, leaf=leaf, lip=lip, rack=rack))

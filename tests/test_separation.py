@@ -55,15 +55,19 @@ def pair(one: ConvexMesh, other: ConvexMesh, joint: sk.Joint | None = None) -> s
     return sk.Asset("pair", mesh, np.repeat([0, 1], 12), parts, (joint or slide,))
 
 
-def passing(lowest: float) -> sk.Asset:
-    """A box that slides by another, whose surface begins at a height; its shape, lower, is in the way."""
-    boxes = [((0, 0, -3), (1, 1, -2)), ((0, 0, 0), (1, 1, 1)), ((2, 0, lowest), (3, 1, 4))]
+def passing(lowest: float, start: float = 0.0, lift: float = 0.5) -> sk.Asset:
+    """A box that slides by another, whose surface begins at a height; its shape, lower, is in the way.
+
+    The first begins its way at x = `start`; the other goes up by `lift`, or down.
+    """
+    boxes = [((0, 0, -3), (1, 1, -2)), ((start, 0, 0), (start + 1, 1, 1)), ((2, 0, lowest), (3, 1, 4))]
     shapes = [block(*boxes[0]), block(*boxes[1]), block((2, 0, 0.9), (3, 1, 4))]
     names = ("body", "slider", "beside")
     parts = tuple(sk.Part(name, collision=(shape,)) for name, shape in zip(names, shapes, strict=True))
+    up = sk.Limits(min(lift, 0.0), max(lift, 0.0))
     joints = (
         sk.Joint("slide", "prismatic", "body", "slider", axis=(1, 0, 0), limits=sk.Limits(0.0, 2.0)),
-        sk.Joint("lift", "prismatic", "body", "beside", axis=(0, 0, 1), limits=sk.Limits(0.0, 0.5)),
+        sk.Joint("lift", "prismatic", "body", "beside", axis=(0, 0, 1), limits=up),
     )
     return sk.Asset("passing", boxes_mesh(boxes), np.repeat(range(3), 12), parts, joints)
 
@@ -179,6 +183,11 @@ class TestOverlaps:
             asset = passing(lowest)
             assert {(o.one, o.other) for o in stopped_by_shapes(asset)} == met
             assert overlaps(asset) == overlaps_on_the_way(asset) == ()
+
+    def test_a_pair_whose_surfaces_stop_one_of_its_joints_is_none_of_them(self) -> None:
+        """The upper box is lifted off the one half below it, or pressed onto it."""
+        assert len(stopped_by_shapes(passing(1.1, start=1.5, lift=0.5))) == 1
+        assert stopped_by_shapes(passing(1.1, start=1.5, lift=-0.5)) == ()
 
 
 class TestSeparated:

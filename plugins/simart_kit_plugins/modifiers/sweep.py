@@ -62,7 +62,7 @@ class Sweep(Modifier):
             pressed = sunk(asset, joint, self.options.steps, self.seed) if stops and wanted else None
             if pressed is not None:
                 changed[name] = pressed
-                told.append(f"{joint.child}: sinks into {joint.parent}, which has no hole for it")
+                told.append(_sunk(joint, pressed))
                 continue
             if stops:
                 blocked = f"blocked after {_amount(joint, max(free.upper, -free.lower))} of {before}"
@@ -82,6 +82,16 @@ class Sweep(Modifier):
         return (
             asset.with_joints(changed).with_notes("sweep", "info", told).with_notes("sweep", "warning", stuck)
         )
+
+
+def _sunk(joint: Joint, pressed: Joint) -> str:
+    """That a joint moves into its carrier all the same, and how far where that is less than it wants."""
+    text = f"{joint.child}: sinks into {joint.parent}, which has no hole for it"
+    if joint.turns:
+        text = f"{joint.child}: turns in {joint.parent}, which has no room for it"
+    if pressed.limits is None or pressed.limits == joint.limits:
+        return text
+    return f"{text}, by {_range(joint, pressed.limits.lower, pressed.limits.upper)}"
 
 
 def _range(joint: Joint, lower: float, upper: float) -> str:
