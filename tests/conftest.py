@@ -11,7 +11,7 @@ import pytest
 import simart_kit as sk
 
 from .once import made_once
-from .real_objects import source
+from .real_objects import ANY_SPEED, source
 
 
 @pytest.fixture(scope="session")
@@ -26,7 +26,8 @@ def converted(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], sk.Re
             with pytest.MonkeyPatch.context() as patch:
                 if not example:  # pictures take longest
                     patch.setattr("simart_kit.render.write_preview", lambda asset, path: path)
-                return sk.convert(source(name), "geometric", out=folder / name, record=example)
+                file, out = source(name), folder / name
+                return sk.convert(file, "geometric", out=out, sets=ANY_SPEED, record=example)
 
         return made_once(tmp_path_factory, f"converted_{name}", make)
 

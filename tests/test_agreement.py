@@ -23,7 +23,7 @@ from simart_kit.kinematics import forward, sample_positions
 from .export_cases import absolute_paths, assert_same_robot, folder_hashes
 from .looks import CENTRES, CORNERS, Floats, Look, mjcf_looks, source_look, urdf_looks, usd_looks
 from .readers import URDF_READERS, read_mujoco
-from .real_objects import EXAMPLE, needs_data, source
+from .real_objects import ANY_SPEED, EXAMPLE, needs_data, source
 from .recordings import contents
 from .usd_readers import forward as usd_forward
 from .usd_readers import open_stage, parsed, read_inertials, read_joints
@@ -156,7 +156,7 @@ def test_vertex_colours_are_on_every_part(form: str, painted: tuple[Path, sk.Res
 def again(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder of the example converted by the command line, in a process that orders sets in its own way."""
     folder = tmp_path_factory.mktemp("again") / "out"
-    options = ["--recipe", "geometric", "--out", str(folder)]
+    options = ["--recipe", "geometric", "--out", str(folder), *(f"--set={text}" for text in ANY_SPEED)]
     command = [sys.executable, "-m", "simart_kit", "convert", str(EXAMPLE), *options]
     environment = {**os.environ, "PYTHONHASHSEED": "1"}
     subprocess.run(command, env=environment, check=True, capture_output=True, timeout=120)
