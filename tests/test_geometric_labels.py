@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from simart_kit_plugins.geometric.predictor import GeometricJoints
-from simart_kit_plugins.geometric.rounds import round_axis
+from simart_kit_plugins.geometric.rounds import is_rod, round_axis
 
 import simart_kit as sk
 from simart_kit.assemble import checked
@@ -114,3 +114,9 @@ class TestRoundness:
         angles = 2 * np.pi * np.arange(24) / 24
         rim = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(24)])
         assert round_axis(np.concatenate([rim - [0, 0, 3], rim + [0, 0, 3]])) is None
+
+    def test_a_needle_without_width_is_no_disc(self) -> None:
+        """Scans and downloads have faces whose corners lie on one line."""
+        needle = np.column_stack([np.zeros((5, 2)), np.linspace(0, 1, 5)])
+        assert round_axis(needle) is None
+        assert not is_rod(needle, 2)

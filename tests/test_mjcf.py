@@ -13,6 +13,7 @@ import pytest
 from simart_kit_exporters.mjcf import Mjcf
 
 from simart_kit.asset import Asset, ConvexMesh, Limits, Material
+from simart_kit.errors import BadInputError
 from simart_kit.kinematics import forward
 from simart_kit.mesh import Image, Mesh, VisualMaterial
 from simart_kit.testing.meshes import cabinet_asset, static_asset
@@ -237,6 +238,14 @@ def test_an_asset_without_physics_loads(tmp_path: Path) -> None:
     for name, pose in forward(asset, positions).items():
         np.testing.assert_allclose(reading.poses[name], pose, atol=1e-6)
     assert any("no mass is known" in text for text in Mjcf().unsupported(asset))
+
+
+def test_a_part_whose_mass_mujoco_cannot_find_is_told(tmp_path: Path) -> None:
+    """What moves must weigh something, and a cabinet of a tenth of a millimetre does not."""
+    asset = cabinet_asset(physics=False)
+    tiny = replace(asset, mesh=replace(asset.mesh, vertices=asset.mesh.vertices * 1e-4))
+    with pytest.raises(BadInputError, match=r"no mass is given for .*door.*: add the modifier mass"):
+        export(tiny, tmp_path / "none")
 
 
 def test_flat_collision_shapes_and_specks_load(tmp_path: Path) -> None:

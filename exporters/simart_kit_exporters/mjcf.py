@@ -9,6 +9,7 @@ from pydantic import Field
 
 from simart_kit.asset import Asset
 from simart_kit.bake import textured_surfaces
+from simart_kit.errors import BadInputError
 from simart_kit.hookspecs import Register, hookimpl
 from simart_kit.kinematics import rest_origin
 from simart_kit.stages import Exporter
@@ -50,19 +51,34 @@ class Mjcf(Exporter):
     options: Options
 
     def export(self, asset: Asset, directory: Path) -> Path:
-        """Write the folder; returns NAME.xml, or NAME.mjz."""
+        """Write the folder; returns NAME.xml, or NAME.mjz.
+
+        Raises:
+            BadInputError: MuJoCo refuses it, as where it cannot find the mass of a part by itself.
+        """
         model = empty_model(asset.name, FLAVORS[self.options.flavor], self.options.timestep, directory)
         bodies = _add_bodies(model, asset)
         _add_shapes(model, asset, bodies)
         _add_excludes(model, asset, bodies)
         path = directory / f"{asset.name}.xml"
-        text = model.spec.to_xml()
+        text = _text(model, asset)
         path.write_text(spelled_out(text) if model.flavor.wrapped else text, encoding="utf-8")
         return pack(path) if self.options.single_file else path
 
     def unsupported(self, asset: Asset) -> tuple[str, ...]:
         """See `gaps`."""
         return gaps(asset, FLAVORS[self.options.flavor])
+
+
+def _text(model: Model, asset: Asset) -> str:
+    try:
+        text: str = model.spec.to_xml()
+    except ValueError as error:
+        said = str(error).partition("\n")[0].removeprefix("Error: ")
+        massless = [part.name for part in asset.parts if part.mass is None]
+        advice = f"; no mass is given for {', '.join(massless)}: add the modifier mass" if massless else ""
+        raise BadInputError(f"MuJoCo does not take {asset.name}: {said}{advice}") from error
+    return text
 
 
 def _add_bodies(model: Model, asset: Asset) -> dict[str, mujoco.MjsBody]:

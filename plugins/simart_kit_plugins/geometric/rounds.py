@@ -28,7 +28,7 @@ def round_axis(points: FloatArray) -> int | None:
         across = np.delete(np.arange(3), axis)
         offset = (points - center)[:, across]
         radius = np.hypot(*offset.T)
-        rim = offset[radius > (1 - _ROUND) * radius.max()]
+        rim = offset[radius >= (1 - _ROUND) * radius.max()]
         angles = np.sort(np.arctan2(rim[:, 1], rim[:, 0]))
         gaps = np.diff(angles, append=angles[0] + 2 * np.pi)
         if gaps.max() < _LARGEST_GAP and size[axis] < 1.2 * size[across].max():
