@@ -268,6 +268,26 @@ def test_flat_collision_shapes_and_specks_load(tmp_path: Path) -> None:
     assert any(re.search("speck.*: body$", text) for text in Mjcf().unsupported(asset))
 
 
+@pytest.mark.parametrize("step", [0.0, 1e-9, 1e-8, 1e-7, 1e-6])
+def test_surfaces_that_are_flat_but_for_their_last_digits_load(step: float, tmp_path: Path) -> None:
+    """A label on a slanted face, one corner of which is a little off its plane."""
+    asset = static_asset()
+    mesh, place = asset.mesh, len(asset.mesh.vertices)
+    label = np.array([(0, 0, 0), (0.02, 0, 0), (0.02, 0.014, 0.028), (0, 0.014, 0.028 + step)]) + [
+        0.3,
+        0.5,
+        0.7,
+    ]
+    mesh = Mesh(
+        np.concatenate([mesh.vertices, label]),
+        np.concatenate([mesh.faces, place + np.array([[0, 1, 2], [0, 2, 3]])]),
+        materials=(VisualMaterial("wood"), VisualMaterial("paper")),
+        face_material=np.repeat([0, 1], [12, 2]),
+    )
+    model = load(replace(asset, mesh=mesh, face_part=np.zeros(14)), tmp_path / "mjcf")
+    assert sum(group == VISUAL for group in model.geom_group) == 2
+
+
 def test_what_is_lost_is_told() -> None:
     pixels = np.full((2, 2, 4), 128, dtype=np.uint8)
     asset = static_asset()

@@ -14,6 +14,8 @@ from simart_kit.triangles import areas, crosses
 # MuJoCo refuses meshes of less than 1e-15 m^3; MIN_AREA is a speck of 0.03 mm, too small to see or to back.
 MIN_VOLUME = 1e-14
 MIN_AREA = 1e-9
+# Less thick than this share of how far it reaches, a surface is flat: files have 8 decimals.
+FLAT = 1e-6
 THICKNESS = 1e-4
 """How far behind a flat surface its back is, as a fraction of the surface's diagonal."""
 
@@ -60,7 +62,8 @@ def _step_back(vertices: FloatArray, faces: IntArray) -> FloatArray | None:
     # The volume of the pyramids from the middle to every face, as MuJoCo measures open meshes.
     volume = np.abs(np.einsum("ij,ij->i", cross, centroids - middle)).sum() / 6
     diagonal = float(np.linalg.norm(np.ptp(corners.reshape(-1, 3), axis=0)))
-    if volume > max(MIN_VOLUME, 1e-9 * diagonal * area.sum()):
+    reach = max(diagonal, float(np.abs(corners).max()))
+    if volume > max(MIN_VOLUME, FLAT * reach * area.sum()):
         return None
     normal = cross[area.argmax()] / max(2 * area.max(), MIN_AREA)
     return np.asarray(-normal * max(THICKNESS * diagonal, 6 * MIN_VOLUME / total))
