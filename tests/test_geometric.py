@@ -24,6 +24,7 @@ from .furniture import (
     OPENING,
     STATIC,
     Box,
+    box,
     cabinet_with_door,
     cabinet_with_two_doors,
     cart,
@@ -86,6 +87,16 @@ class TestStatic:
             result = found(turned(boxes_mesh(STATIC[name]), 90.0 * quarter))
             assert [p.name for p in result.segmentation.parts] == ["body"]
             assert result.joints == ()
+
+    def test_slats_are_no_doors(self) -> None:
+        """A cabinet behind nine slats a side, which close a cavity; a board beside them may be a door."""
+        sides = ((-0.3, -0.28), (0.28, 0.3))
+        boards = [box((-0.3, 0.3), (-0.28, 0.28), z) for z in ((0.0, 0.02), (0.58, 0.6))]
+        boards += [box(x, (-0.28, 0.28), (0.02, 0.58)) for x in sides]
+        slats = [box((x, x + 0.052), y, (0.0, 0.6)) for x in np.linspace(-0.3, 0.248, 9) for y in sides]
+        result = found([*boards, *slats])
+        moving = [face for child in result.kinds for face in result.faces(child)]
+        assert not [face for face in moving if face >= 12 * len(boards)]
 
     def test_that_is_told(self) -> None:
         texts = [note.text for note in found(STATIC["television"]).segmentation.notes]

@@ -121,6 +121,7 @@ def _front(
     # A flat piece is a panel however far back it reaches: then it stands ajar.
     deep = behind if flat > PANEL else (piece, *behind)
     boxed = bool(deep) and _boxed(box.upper[2] - min(boxes[i].lower[2] for i in deep), box, whole)
+    boxed = boxed and not (facing != "top" and _bare(scene, axes, Box.around([boxes[i] for i in deep]), own))
     walled, backed, depth = _surroundings(
         scene, axes, box, own, box.upper[2] - 0.02 if boxed else box.lower[2]
     )
@@ -160,14 +161,28 @@ def _boxed(reach: float, front: Box, whole: Box) -> bool:
     return bool(reach > 0.3 * whole.size[2] and reach > 0.3 * front.size[:2].min())
 
 
+def _bare(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> bool:
+    """Whether a solid top lies open to the sky, as that of a mattress or a seat does, and of no drawer."""
+    labels, distance = _from_above(scene, axes, box, scene.box.turned(axes).upper[1])
+    top = scene.box.turned(axes).upper[1] - box.upper[1] + 0.01
+    return float((np.isin(labels, own) & (distance - top < 0.5 * box.size[1])).mean()) > 0.5
+
+
 def _hollow(scene: Scene, axes: FloatArray, box: Box, piece: int) -> bool:
     """Whether most rays from above go well into a piece before they meet it."""
+    others = tuple(i for i in range(scene.count) if i != piece)
+    labels, distance = _from_above(scene, axes, box, box.upper[1], others)
+    return float(((labels >= 0) & (distance > 0.3 * box.size[1])).mean()) > 0.5
+
+
+def _from_above(
+    scene: Scene, axes: FloatArray, box: Box, height: float, passing: tuple[int, ...] = ()
+) -> tuple[IntArray, FloatArray]:
+    """What rays straight down over a box meet first, and how far below a little above `height` [v]."""
     above = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])  # (u, v, w) -> across, depth, upward
     points = _grid(box.turned(above), 8, 0.8)
-    origins = np.column_stack([points[:, 0], np.full(len(points), box.upper[1] + 0.01), -points[:, 1]])
-    others = tuple(i for i in range(scene.count) if i != piece)
-    labels, distance = cast(scene, axes, origins, np.array([0.0, -1.0, 0.0]), others)
-    return float(((labels >= 0) & (distance > 0.3 * box.size[1])).mean()) > 0.5
+    origins = np.column_stack([points[:, 0], np.full(len(points), height + 0.01), -points[:, 1]])
+    return cast(scene, axes, origins, np.array([0.0, -1.0, 0.0]), passing)
 
 
 def _flat(scene: Scene, axes: FloatArray, pieces: tuple[int, ...]) -> float:

@@ -20,6 +20,7 @@ FLAT = 0.4  # share of a panel's surface that faces out or back
 FRAMED = 0.75  # share of its sides with something close beside, of what stands in a frame
 WHOLE = 0.9  # share of its side from which on a front is that side
 LEAST_SHARE = 0.06  # of its side that a front without a handle takes
+SLAT = 8.0  # times as long as wide, a panel without a handle is a slat
 TALL = 0.8  # share of the object's height above which a leaf is for passing through
 MOST = 0.4  # share of its side that the leaf in a doorway takes
 _TWIN = 0.5  # how sure a front is of which only its twin opens by itself
@@ -153,7 +154,8 @@ def _in_doorway(front: Front) -> bool:
 
 def _opens_by_place(front: Front) -> bool:
     """Without a handle: a panel before a cavity, or an open box among walls."""
-    if front.share < LEAST_SHARE:
+    width, height = sorted(front.box.size[:2])
+    if front.share < LEAST_SHARE or height > SLAT * width:
         return False
     if front.boxed:
         return front.backed >= ENCLOSED and (
