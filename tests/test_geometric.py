@@ -80,6 +80,28 @@ def assert_hinge(joint: sk.Joint, through: tuple[float, float, float], along: st
     assert np.linalg.norm(apart - axis * (apart @ axis)) < 0.02
 
 
+def pot(hinge: bool) -> Mesh:
+    """A round wall on a floor, with a round lid that has a knob; a hinge is a small block on both."""
+    wall = trimesh.creation.annulus(r_min=0.118, r_max=0.12, height=0.16, sections=48)
+    floor = trimesh.creation.cylinder(radius=0.118, height=0.004, sections=48)
+    lid = trimesh.creation.cylinder(radius=0.122, height=0.006, sections=48)
+    knob = trimesh.creation.cylinder(radius=0.015, height=0.03, sections=24)
+    for part, height in ((wall, 0.08), (floor, 0.002), (lid, 0.1631), (knob, 0.1813)):
+        part.apply_translation([0, 0, height])
+    blocks = [boxes_mesh([box((-0.01, 0.01), (0.115, 0.135), (0.13, 0.16))])] if hinge else []
+    return joined(*(Mesh(part.vertices, part.faces) for part in (wall, floor, lid, knob)), *blocks)
+
+
+class TestLids:
+    def test_the_round_lid_of_a_pot_lies_loose(self) -> None:
+        assert found(pot(hinge=False)).kinds == {"lid": "free"}
+
+    def test_with_a_hinge_it_opens_about_that(self) -> None:
+        result = found(pot(hinge=True))
+        assert list(result.kinds) == ["lid"]
+        assert_hinge(result.joint("lid"), (0.0, 0.122, 0.163), "x")
+
+
 class TestStatic:
     @pytest.mark.parametrize("name", STATIC)
     def test_nothing_moves_whichever_way_it_stands(self, name: str) -> None:

@@ -69,6 +69,11 @@ def spin(axis: FloatArray, center: FloatArray) -> Candidate:
     return Candidate("continuous", axis, center, 0.0)
 
 
+def lift(view: View) -> Candidate:
+    """Off what it lies on, any way."""
+    return Candidate("free", np.array([0.0, 0.0, 1.0]), view.box.center, 0.0)
+
+
 def at_depth(candidate: Candidate, w: float) -> Candidate:
     """The same hinge, farther out or in."""
     origin = np.array([*candidate.origin[:2], w])

@@ -74,6 +74,11 @@ def hinge_score(view: View, label: str) -> Score:
     )
 
 
+def hinged_by(view: View, hinge: Candidate, around: Surroundings) -> bool:
+    """Whether small pieces of the body, such as hinges are, lie on an edge."""
+    return bool(_hardware_on(view, hinge, around))
+
+
 def edge_score(view: View, hinge: Candidate, around: Surroundings) -> Score:
     """Evidence for a hinge on one edge."""
     across, up = view.handle_place

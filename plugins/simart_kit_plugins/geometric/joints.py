@@ -16,8 +16,18 @@ from simart_kit.kinematics import rotation
 from simart_kit.segments import find_segments
 from simart_kit.sweeping import Motion, Sweep
 
-from .candidates import Candidate, Choice, at_depth, hinges, slide, spin
-from .choice import RACKS, SPINNING, STANDING_OPEN, Surroundings, edge_score, hinge_score, says, slide_score
+from .candidates import Candidate, Choice, at_depth, hinges, lift, slide, spin
+from .choice import (
+    RACKS,
+    SPINNING,
+    STANDING_OPEN,
+    Surroundings,
+    edge_score,
+    hinge_score,
+    hinged_by,
+    says,
+    slide_score,
+)
 from .contact import Contacts
 from .control_joints import pressed, pulled, tilted, turned
 from .levers import LEVERS, levering, pierced, with_handle
@@ -35,7 +45,7 @@ if TYPE_CHECKING:
     from simart_kit.arrays import BoolArray, FloatArray
     from simart_kit.spec.values import Spec
 
-_SUFFIX = {"revolute": "hinge", "prismatic": "slide", "continuous": "spin"}
+_SUFFIX = {"revolute": "hinge", "prismatic": "slide", "continuous": "spin", "free": "joint"}
 _SHUT = np.deg2rad(0.5)
 _AS_FREE = 0.005  # share of points that may pass through more than about the freest line
 _POST = 0.3  # of the diagonal: lower rods hold no leaf
@@ -93,6 +103,8 @@ def _choose(scene: Scene, view: View, label: str, around: Surroundings) -> Choic
     sliding, hinged = slide_score(view, label), hinge_score(view, label)
     if sliding.value > hinged.value:
         return slide(view), _confidence(sliding.value - hinged.value), sliding.reasons
+    if view.facing == "top" and _lies_loose(scene, view, around):
+        return lift(view), 0.5, ("round, and nothing like a hinge is on its rim",)
     turning = pivot(view, around.hardware)
     if turning is not None:
         return turning
@@ -103,6 +115,12 @@ def _choose(scene: Scene, view: View, label: str, around: Surroundings) -> Choic
     post = on_post(hinge, view.box, around.posts)
     line = _deep_enough(scene, view, hinge) if post is hinge else post
     return line, _confidence(margin), hinged.reasons + best.reasons
+
+
+def _lies_loose(scene: Scene, view: View, around: Surroundings) -> bool:
+    """Whether a lid is round, as that of a pot is, and has no hinge."""
+    round_lid = round_axis(scene.points_of(view.part)) == 2
+    return round_lid and not any(hinged_by(view, hinge, around) for hinge in hinges(view))
 
 
 def _spinning(scene: Scene, view: View) -> Choice | None:
