@@ -11,6 +11,7 @@ from .triangles import crosses
 
 MIN_THICKNESS = 0.002  # [m] of the hull of something flat
 _FLAT = 1e-12  # of the cube of its size: what a hull holds at least
+_PLANE = 1e-6  # of how far points reach: what is thinner is flat to who reads 32-bit numbers
 _MANY_POINTS, _MANY_DIRECTIONS = 20_000, 1024
 _GOLDEN_ANGLE = np.pi * (3.0 - np.sqrt(5.0))
 
@@ -31,6 +32,8 @@ def hull_of(points: FloatArray) -> ConvexMesh | None:
     used, corners = np.unique(hull.simplices, return_inverse=True)
     corners = corners.reshape(-1, 3)
     vertices = np.asarray(points, dtype=np.float64)[used]
+    if min(float(np.ptp(vertices @ axis)) for axis in _principal_axes(vertices)) < _PLANE * _reach(vertices):
+        return None
     inward = np.einsum("ni,ni->n", crosses(vertices[corners]), hull.equations[:, :3]) < 0
     return ConvexMesh(vertices, np.where(inward[:, None], corners[:, ::-1], corners))
 
@@ -58,6 +61,7 @@ def convex_hull(points: FloatArray, max_vertices: int = 64, thickness: float = M
         max_vertices: rounder hulls keep only their farthest vertices in as many fixed directions; at least 8.
         thickness: extent that it has at least in every direction [m].
     """
+    thickness = max(thickness, 4 * _PLANE * _reach(points))
     hull = hull_of(_thickened(points, thickness))
     assert hull is not None  # thick in three directions
     if len(hull.vertices) <= max_vertices:
@@ -91,11 +95,18 @@ def _farthest(points: FloatArray, count: int) -> IntArray:
 
 def _thickened(points: FloatArray, thickness: float) -> FloatArray:
     """The points, doubled apart along those of their principal axes in which they are thinner."""
-    middle = points.mean(axis=0)
-    axes = np.linalg.eigh(np.cov(points - middle, rowvar=False, bias=True))[1].T
-    for axis in axes:
+    for axis in _principal_axes(points):
         lacking = thickness - float(np.ptp(points @ axis))
         if lacking > 0:
             offset = axis * (lacking / 2)
             points = np.concatenate([points - offset, points + offset])
     return points
+
+
+def _principal_axes(points: FloatArray) -> FloatArray:
+    """(3, 3) unit rows, along the first of which (N, 3) points spread least."""
+    return np.asarray(np.linalg.eigh(np.cov(points - points.mean(axis=0), rowvar=False, bias=True))[1].T)
+
+
+def _reach(points: FloatArray) -> float:
+    return float(np.abs(points).max())
