@@ -120,6 +120,14 @@ class TestSettle:
         assert not result.passed
         assert result.evidence["stands"] == pytest.approx(45.0, abs=0.1)
 
+    def test_a_round_bottom_is_no_foot(self, tmp_path: Path) -> None:
+        """A bottle, a little heavier on one side: 5 mm up its bottom is 33 mm wide, but it rolls on it."""
+        bottle = """<body name="b"><geom type="capsule" size="0.03 0.1"/>
+        <inertial pos="0.004 0 0" mass="1" diaginertia="0.01 0.01 0.01"/></body>"""
+        result = judged("settle", mjcf(tmp_path, bottle))
+        assert result.evidence["tilt"] > 10
+        assert (result.passed, result.text) == (True, "does not stand by itself: keep its base fixed")
+
     def test_feet_of_unequal_height_let_it_lean(self, tmp_path: Path) -> None:
         """One foot ends at x = -0.03 on the floor, the other at 0.05 and 4 mm up: 2.86 degrees."""
         body = """<body name="b"><freejoint/><geom type="box" size="0.05 0.05 0.01" pos="0 0 0.03"/>

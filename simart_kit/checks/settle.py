@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ..arrays import FloatArray
 
 _DIRECTIONS = 360  # in which a shape may tip over
+_LEVEL = 2e-4  # of the diagonal: how far from the plane on which it rests a foot ends
 _UNKNOWN = 90.0  # slope of what has no shapes [degrees]: it is judged by its drop
 
 
@@ -120,18 +121,24 @@ def _stance(subject: Subject, near: float) -> tuple[float, float]:
     if not hulls:
         return _UNKNOWN, 0.0
     moments = sum((solid_moments(hull.vertices[hull.faces]).sum(axis=0) for hull in hulls), np.zeros((4, 4)))
-    center, points = moments[:3, 3] / moments[3, 3], np.concatenate(shapes)
-    feet = points[points[:, 2] <= mechanism.bounds[0, 2] + near]
+    center, points = moments[:3, 3] / moments[3, 3], np.concatenate([hull.vertices for hull in hulls])
+    below, normal = _face_below(points, center)
+    if below[2] > mechanism.bounds[0, 2] + near:  # it lies on no feet: what is lowest stands for them
+        below, normal = mechanism.bounds[0], -np.eye(3)[2]
+        feet = points[points[:, 2] <= mechanism.bounds[0, 2] + near]
+    else:
+        feet = points[np.abs((points - below) @ normal) <= _LEVEL * mechanism.diagonal]
+    height = center[2] - below[2] - ((center - below) * normal)[:2].sum() / -normal[2]
     angles = np.linspace(0, 2 * np.pi, _DIRECTIONS, endpoint=False)
     ways = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     # How far the centre is inside the feet's hull: where it is nearest to the hull's edge.
     inside = float(((feet[:, :2] - center[:2]) @ ways.T).max(axis=0).min())
-    slope = float(np.degrees(np.arctan2(inside, center[2] - mechanism.bounds[0, 2])))
-    return slope, _lean(np.concatenate([hull.vertices for hull in hulls]), center, near)
+    lean = float(np.degrees(np.arccos(min(-normal[2], 1.0))))
+    return float(np.degrees(np.arctan2(inside, height))) - lean, lean
 
 
-def _lean(points: FloatArray, center: FloatArray, near: float) -> float:
-    """Tilt of the face below a (3,) centre, of the hull of (N, 3) points [degrees]; 0 where it is no foot."""
+def _face_below(points: FloatArray, center: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Highest corner and (3,) normal of the face below a (3,) centre, of the hull of (N, 3) points."""
     hull = hull_of(points)
     assert hull is not None  # of shapes that are thick
     triangles = hull.vertices[hull.faces]
@@ -141,9 +148,7 @@ def _lean(points: FloatArray, center: FloatArray, near: float) -> float:
     # Below the centre, the plane of the face that is there is above those of all others.
     height = triangles[:, 0, 2] - ((center - triangles[:, 0]) * normals)[:, :2].sum(axis=1) / normals[:, 2]
     below = int(np.argmax(height))
-    if triangles[below, :, 2].max() > points[:, 2].min() + near:
-        return 0.0
-    return float(np.degrees(np.arccos(-normals[below, 2])))
+    return triangles[below][triangles[below][:, 2].argmax()], normals[below]
 
 
 def _free_joints(model: mujoco.MjModel) -> list[int]:
