@@ -306,7 +306,10 @@ class Asset:
 
     def with_notes(self, stage: str, level: Literal["info", "warning"], texts: Iterable[str]) -> Asset:
         """The asset with one more note a text."""
-        return replace(self, notes=self.notes + tuple(Note(stage, level, text) for text in texts))
+        noted = replace(self, notes=self.notes + tuple(Note(stage, level, text) for text in texts))
+        # What is computed of an asset and kept with it does not depend on its notes.
+        vars(noted).update({name: value for name, value in vars(self).items() if name not in vars(noted)})
+        return noted
 
     def with_parts(self, changed: Mapping[str, Part]) -> Asset:
         """The asset with some parts replaced, by name."""

@@ -1,6 +1,8 @@
 from dataclasses import dataclass, fields, replace
 
+from simart_kit.asset import Asset
 from simart_kit.kept import kept
+from simart_kit.testing.meshes import cabinet_asset
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,3 +56,21 @@ class TestKept:
         double(box)
         assert double(replace(box, width=5.0)) == 10.0
         assert [field.name for field in fields(box)] == ["width"]
+
+    def test_a_note_on_an_asset_changes_no_answer_but_a_joint_may(self) -> None:
+        asked = []
+
+        @kept
+        def names(asset: Asset) -> tuple[str, ...]:
+            asked.append(asset)
+            return tuple(joint.name for joint in asset.joints)
+
+        asset = cabinet_asset()
+        noted = asset.with_notes("test", "info", ["seen"])
+        assert names(noted) == names(asset)
+        again = noted.with_notes("test", "info", ["and again"])
+        assert names(again) == names(noted)
+        assert len(asked) == 2  # of the first note's asset, made before anything was asked, and of the asset
+        assert [note.text for note in again.notes[-2:]] == ["seen", "and again"]
+        hinge = asset.joint("door_hinge")
+        assert "lid_hinge" in names(again.with_joints({"door_hinge": replace(hinge, name="lid_hinge")}))
