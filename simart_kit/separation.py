@@ -31,6 +31,8 @@ Pair = tuple[int, int]
 
 _STOPS = 9  # positions tried between the limits of each joint, both included, besides some near rest
 _NEAR_REST = (0.02, 0.05, 0.09)  # of the way to each limit
+# A corner that turns out of its frame grazes that on a hundredth of its way.
+_LEAVING = tuple(0.005 * step for step in range(1, 21))
 _MOST_OF_SHAPE = 0.25  # of its extent that a shape may lose on one side
 
 
@@ -97,7 +99,7 @@ def overlaps_on_the_way(asset: Asset) -> tuple[Overlap, ...]:
             continue
         both = [bodies[asset.part_index(name)] for name in (joint.parent, joint.child)]
         alone = [row if body in both else [] for row, body in zip(shapes, bodies, strict=True)]
-        for position in _stops(span(joint)):
+        for position in _stops(span(joint), _LEAVING if joint.limits else _NEAR_REST):
             met = _deepest(_posed(alone, asset, {joint.name: position}), bodies)
             found |= {pair: max(depth, found.get(pair, 0.0)) for pair, depth in met.items()}
     return _named(asset, found)
@@ -119,7 +121,7 @@ def stopped_by_shapes(asset: Asset) -> tuple[Overlap, ...]:
     for joint in (joint for joint in asset.joints if span(joint) != (0.0, 0.0)):
         moved = {asset.part_index(name) for name in carried(asset, joint.child)}
         met: dict[Pair, float] = {}
-        for position in _stops(span(joint)):
+        for position in _stops(span(joint), _NEAR_REST):
             for pair, depth in _deepest(_posed(shapes, asset, {joint.name: position}), bodies).items():
                 if len(moved.intersection(pair)) == 1 and pair not in known:
                     met[pair] = max(depth, met.get(pair, 0.0))
@@ -144,9 +146,9 @@ def _free(asset: Asset, joint: Joint, pair: Pair, moved: Collection[int]) -> boo
     return free_range(limited, Sweep(asset.mesh.vertices, *faces), _STOPS) == span(joint)
 
 
-def _stops(ends: tuple[float, float]) -> list[float]:
-    """Positions from end to end, closer to each other near rest, where edges of a panel pass its frame."""
-    near = [share * end for end in ends for share in _NEAR_REST]
+def _stops(ends: tuple[float, float], shares: Sequence[float]) -> list[float]:
+    """Positions from end to end, and at these shares of the way to each."""
+    near = [share * end for end in ends for share in shares]
     return sorted({0.0, *near, *np.linspace(*ends, _STOPS).tolist()})
 
 

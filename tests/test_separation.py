@@ -164,6 +164,14 @@ class TestOverlaps:
         assert overlaps(asset, {"slide": -0.15})[0].depth == pytest.approx(0.05)
         assert overlaps_on_the_way(asset)[0].depth == pytest.approx(0.1)
 
+    def test_a_corner_that_grazes_its_frame_as_it_turns_out_is_met(self) -> None:
+        """The far corner is 0.401124 from the hinge, and beyond 0.4011 from 3.66 to 4.36 degrees alone."""
+        hinge = sk.Joint("hinge", "revolute", "one", "two", axis=(0, 0, -1), limits=sk.Limits(0, np.pi / 2))
+        frame, door = block((0.4011, -0.0005, 0), (0.5, 0.03, 1)), block((0, 0, 0), (0.4, 0.03, 1))
+        (found,) = overlaps_on_the_way(pair(frame, door, hinge))
+        assert 0 < found.depth < 0.401124 - 0.4011
+        assert overlaps_on_the_way(pair(block((0.4012, -0.0005, 0), (0.5, 0.03, 1)), door, hinge)) == ()
+
     def test_parts_that_cannot_move_against_each_other_are_one(self) -> None:
         for joint in (
             sk.Joint("fix", "fixed", "one", "two"),
