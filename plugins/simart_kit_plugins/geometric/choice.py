@@ -74,18 +74,13 @@ def hinge_score(view: View, label: str) -> Score:
     )
 
 
-def hinged_by(view: View, hinge: Candidate, around: Surroundings) -> bool:
-    """Whether small pieces of the body, such as hinges are, lie on an edge."""
-    return bool(_hardware_on(view, hinge, around))
-
-
 def edge_score(view: View, hinge: Candidate, around: Surroundings) -> Score:
     """Evidence for a hinge on one edge."""
     across, up = view.handle_place
     opposite = {"left": across, "right": -across, "bottom": up, "top": -up}[hinge.edge]
     meets = _neighbour_beyond(view, hinge, around)
     # What is of neither of two leaves, where they meet, is a lock or a handle.
-    hardware = [] if meets else _hardware_on(view, hinge, around)
+    hardware = [] if meets else hardware_on(view, hinge, around)
     upright = hinge.edge in ("left", "right")
     lid = view.facing == "top"
     bar = view.handle is not None and view.handle.size[0] > view.handle.size[1]
@@ -120,7 +115,7 @@ def _edge_line(view: View, hinge: Candidate) -> tuple[int, float, float]:
     return axis, float(hinge.origin[axis]), sign
 
 
-def _hardware_on(view: View, hinge: Candidate, around: Surroundings) -> list[float]:
+def hardware_on(view: View, hinge: Candidate, around: Surroundings) -> list[float]:
     """Where along an edge small pieces of the body are, in order, as shares of its length."""
     axis, place, _ = _edge_line(view, hinge)
     panel, along = view.box, 1 - axis

@@ -23,8 +23,8 @@ from .choice import (
     STANDING_OPEN,
     Surroundings,
     edge_score,
+    hardware_on,
     hinge_score,
-    hinged_by,
     says,
     slide_score,
 )
@@ -120,7 +120,7 @@ def _choose(scene: Scene, view: View, label: str, around: Surroundings) -> Choic
 def _lies_loose(scene: Scene, view: View, around: Surroundings) -> bool:
     """Whether a lid is round, as that of a pot is, and has no hinge."""
     round_lid = round_axis(scene.points_of(view.part)) == 2
-    return round_lid and not any(hinged_by(view, hinge, around) for hinge in hinges(view))
+    return round_lid and not any(hardware_on(view, hinge, around) for hinge in hinges(view))
 
 
 def _spinning(scene: Scene, view: View) -> Choice | None:
