@@ -128,7 +128,7 @@ def _stance(subject: Subject, near: float) -> tuple[float, float]:
         feet = points[points[:, 2] <= mechanism.bounds[0, 2] + near]
     else:
         feet = points[np.abs((points - below) @ normal) <= _LEVEL * mechanism.diagonal]
-    height = center[2] - below[2] - ((center - below) * normal)[:2].sum() / -normal[2]
+    height = (center - below) @ normal / normal[2]
     angles = np.linspace(0, 2 * np.pi, _DIRECTIONS, endpoint=False)
     ways = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     # How far the centre is inside the feet's hull: where it is nearest to the hull's edge.

@@ -163,9 +163,10 @@ def _boxed(reach: float, front: Box, whole: Box) -> bool:
 
 def _bare(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> bool:
     """Whether a solid top lies open to the sky, as that of a mattress or a seat does, and of no drawer."""
-    labels, distance = _from_above(scene, axes, box, scene.box.turned(axes).upper[1])
-    top = scene.box.turned(axes).upper[1] - box.upper[1] + 0.01
-    return float((np.isin(labels, own) & (distance - top < 0.5 * box.size[1])).mean()) > 0.5
+    highest = scene.box.turned(axes).upper[1]
+    labels, distance = _from_above(scene, axes, box, highest)
+    near_top = distance < highest + 0.01 - box.upper[1] + 0.5 * box.size[1]
+    return float((np.isin(labels, own) & near_top).mean()) > 0.5
 
 
 def _hollow(scene: Scene, axes: FloatArray, box: Box, piece: int) -> bool:
