@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from .arrays import FloatArray, IntArray
 from .asset import ConvexMesh
 from .kept import kept
+from .primitive_meshes import pose
 from .topology import unique_rows
 from .triangles import areas, chunks, unit_normals
 
@@ -23,9 +24,11 @@ class Convex:
 
     Attributes:
         shape: in the asset frame; a round primitive counts as exactly round.
+        turned: the same shape elsewhere, whose directions are known, and the (3, 3) rotation from there.
     """
 
     shape: ConvexMesh
+    turned: tuple[Convex, FloatArray] | None = None
 
     @cached_property
     def bounds(self) -> FloatArray:
@@ -36,6 +39,8 @@ class Convex:
     @cached_property
     def normals(self) -> FloatArray:
         """(N, 3) unit normals of its faces, each up to its sign."""
+        if self.turned:
+            return self.turned[0].normals @ self.turned[1].T
         triangles = self.shape.vertices[self.shape.faces]
         area = areas(triangles)
         return _lines(unit_normals(triangles[area > _SLIVER * area.max()]))
@@ -43,6 +48,8 @@ class Convex:
     @cached_property
     def edges(self) -> FloatArray:
         """(E, 3) unit directions of the edges between its faces, each up to its sign."""
+        if self.turned:
+            return self.turned[0].edges @ self.turned[1].T
         vertices, faces = self.shape.vertices, self.shape.faces
         ends = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
         order = np.lexsort(ends.T)
@@ -67,6 +74,18 @@ class Convex:
             cosine = np.abs(axes @ primitive.asset_T_shape[:3, 2])
             reach = reach * np.sqrt(np.maximum(1 - cosine**2, 0)) + cosine * primitive.size[2] / 2
         return middle - reach, middle + reach
+
+    def moved(self, matrix: FloatArray) -> Convex:
+        """The shape where a (4, 4) motion takes it."""
+        rotation, shift = matrix[:3, :3], matrix[:3, 3]
+        primitive = self.shape.primitive
+        if primitive is not None:
+            start = primitive.asset_T_shape
+            primitive = replace(
+                primitive, asset_T_shape=pose(rotation @ start[:3, :3], rotation @ start[:3, 3] + shift)
+            )
+        vertices = self.shape.vertices @ rotation.T + shift
+        return Convex(ConvexMesh(vertices, self.shape.faces, primitive), (self, rotation))
 
 
 @kept

@@ -62,7 +62,7 @@ def _ease(shapes: Shapes, joint: Joint, others: Mapping[str, Sequence[str]], mos
         for name, i in [(part, i) for part in others for i in range(len(shapes[part]))]:
             if spent >= work:
                 return spent
-            moved = Convex(_moved(shapes[name][i].shape, posed_T_rest))
+            moved = shapes[name][i].moved(posed_T_rest)
             near = [(part, k) for part in others[name] for k in meets(moved, boxes[part]).tolist()]
             spent += len(near)
             for other, k in [(part, k) for part, k in near if gap(moved, shapes[part][k])[0] < -TOLERANCE]:
@@ -70,7 +70,7 @@ def _ease(shapes: Shapes, joint: Joint, others: Mapping[str, Sequence[str]], mos
                 if pulls is not None:
                     axis, mine, its = pulls
                     own = pulled_in(shapes[name][i].shape, axis @ posed_T_rest[:3, :3], mine)
-                    shapes[name][i], moved = convex(own), Convex(_moved(own, posed_T_rest))
+                    shapes[name][i], moved = convex(own), convex(own).moved(posed_T_rest)
                     shapes[other][k] = convex(pulled_in(shapes[other][k].shape, -axis, its))
                     boxes[other][k] = shapes[other][k].bounds
     return spent

@@ -13,7 +13,6 @@ from .clipping import extent, pulled_in
 from .convex_overlap import Convex, convex, gap
 from .kept import kept
 from .kinematics import Positions, carried, rest_to_posed, span
-from .primitive_meshes import pose
 from .sweeping import Sweep, free_range
 from .topology import connected
 
@@ -120,13 +119,13 @@ def stopped_by_shapes(asset: Asset) -> tuple[Overlap, ...]:
     stopped = set[frozenset[int]]()  # pairs of rigid bodies
     for joint in (joint for joint in asset.joints if span(joint) != (0.0, 0.0)):
         moved = {asset.part_index(name) for name in carried(asset, joint.child)}
+        sides = np.isin(np.arange(len(asset.parts)), list(moved)).astype(np.int64)
         met: dict[Pair, float] = {}
         for position in _stops(span(joint), _NEAR_REST):
-            for pair, depth in _deepest(_posed(shapes, asset, {joint.name: position}), bodies).items():
-                if len(moved.intersection(pair)) == 1 and pair not in known:
-                    met[pair] = max(depth, met.get(pair, 0.0))
+            for pair, depth in _deepest(_posed(shapes, asset, {joint.name: position}), sides).items():
+                met[pair] = max(depth, met.get(pair, 0.0))
         for pair, depth in met.items():
-            if depth > STUCK and _rigid(bodies, pair) not in stopped:
+            if depth > STUCK and pair not in known and _rigid(bodies, pair) not in stopped:
                 found[pair] = max(depth, found.get(pair, 0.0))
                 if not _free(asset, joint, pair, moved):
                     stopped.add(_rigid(bodies, pair))
@@ -209,23 +208,13 @@ def _posed(shapes: Sequence[Sequence[Convex]], asset: Asset, positions: Position
     posed_T_rest = rest_to_posed(asset, positions)
     moves = [posed_T_rest[part.name] for part in asset.parts]
     return [
-        list(row) if np.array_equal(move, np.eye(4)) else [Convex(_moved(c.shape, move)) for c in row]
+        list(row) if np.array_equal(move, np.eye(4)) else [c.moved(move) for c in row]
         for row, move in zip(shapes, moves, strict=True)
     ]
 
 
-def _moved(shape: ConvexMesh, matrix: FloatArray) -> ConvexMesh:
-    rotation, shift = matrix[:3, :3], matrix[:3, 3]
-    primitive = shape.primitive
-    if primitive is not None:
-        start = primitive.asset_T_shape
-        moved = pose(rotation @ start[:3, :3], rotation @ start[:3, 3] + shift)
-        primitive = replace(primitive, asset_T_shape=moved)
-    return ConvexMesh(shape.vertices @ rotation.T + shift, shape.faces, primitive)
-
-
 def _deepest(shapes: Sequence[Sequence[Convex]], bodies: IntArray) -> dict[Pair, float]:
-    """How deep parts of different rigid bodies stand in each other [m], where they do."""
+    """How deep parts with different labels of (P,) `bodies` stand in each other [m], where they do."""
     found: dict[Pair, float] = {}
     for (one, i), (other, j) in _near(shapes, bodies, -TOLERANCE):
         depth = -gap(shapes[one][i], shapes[other][j])[0]
