@@ -16,3 +16,9 @@ def triangle_bounds(triangles: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Lower and upper corners (F, 3) of each of the triangles (F, 3, 3)."""
     a, b, c = triangles.transpose(1, 0, 2)
     return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+
+
+def box_corners(bounds: FloatArray) -> FloatArray:
+    """(8, 3) corners of the box between the (2, 3) bounds."""
+    x, y, z = np.asarray(bounds).T
+    return np.stack(np.meshgrid(x, y, z), axis=-1).reshape(-1, 3)

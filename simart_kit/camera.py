@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import FloatArray, Vec3, frozen_floats, unit, vec3
+from .bounds import box_corners
 
 Side = Literal["left", "right"]
 ISOMETRIC_ELEVATION = float(np.arctan(1 / np.sqrt(2)))
@@ -117,12 +118,6 @@ def framed(
         distance = 2 * size
     target = np.array([center_x, center_y, middle]) @ axes
     return Camera(vec3(target - distance * axes[2]), vec3(target), float(view_height), perspective)
-
-
-def box_corners(bounds: FloatArray) -> FloatArray:
-    """(8, 3) corners of the box between the (2, 3) bounds."""
-    x, y, z = np.asarray(bounds).T
-    return np.stack(np.meshgrid(x, y, z), axis=-1).reshape(-1, 3)
 
 
 def _apex(across: FloatArray, depth: FloatArray, tangent: float) -> tuple[float, float]:

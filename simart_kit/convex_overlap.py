@@ -96,7 +96,12 @@ def convex(shape: ConvexMesh) -> Convex:
 
 def meets(one: Convex, boxes: FloatArray) -> IntArray:
     """Indices of the (N, 2, 3) boxes that share space with the one around a shape."""
-    lower, upper = one.bounds
+    return sharing(one.bounds, boxes)
+
+
+def sharing(box: FloatArray, boxes: FloatArray) -> IntArray:
+    """Indices of the (N, 2, 3) boxes that share space with the (2, 3) box."""
+    lower, upper = box
     return np.flatnonzero(((lower < boxes[:, 1]) & (boxes[:, 0] < upper)).all(axis=1))
 
 

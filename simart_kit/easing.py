@@ -11,10 +11,11 @@ from collections.abc import Collection, Mapping, Sequence
 import numpy as np
 
 from .arrays import FloatArray
-from .asset import Asset, ConvexMesh, Joint
+from .asset import Asset, Joint
+from .bounds import box_corners
 from .clipping import extent, pulled_in
-from .convex_overlap import Convex, convex, gap, gap_across, meets
-from .kinematics import carried, joint_motion, span
+from .convex_overlap import Convex, convex, gap, gap_across, meets, sharing
+from .kinematics import carried, moved_by, reach_box, span
 from .separation import CLEARANCE, TOLERANCE, overlaps_on_the_way, replaced, rigid_bodies
 
 _STEPS = 0.0005 * 2.0 ** np.arange(8)  # [m] that a part has moved at its farthest
@@ -54,16 +55,15 @@ def _ease(shapes: Shapes, joint: Joint, others: Mapping[str, Sequence[str]], mos
 
     Returns the work done, at least one.
     """
-    spent = 1
-    still = {other for row in others.values() for other in row}
-    boxes = {other: np.array([one.bounds for one in shapes[other]]).reshape(-1, 2, 3) for other in still}
+    spent, boxes = 1, _within_reach(shapes, joint, others)
     for position in _positions(joint, [one for name in others for one in shapes[name]]):
-        posed_T_rest = _motion(joint, position)
+        posed_T_rest = moved_by(joint, position)
         for name, i in [(part, i) for part in others for i in range(len(shapes[part]))]:
             if spent >= work:
                 return spent
             moved = shapes[name][i].moved(posed_T_rest)
-            near = [(part, k) for part in others[name] for k in meets(moved, boxes[part]).tolist()]
+            reached = (part for part in others[name] if part in boxes)
+            near = [(part, k) for part in reached for k in meets(moved, boxes[part]).tolist()]
             spent += len(near)
             for other, k in [(part, k) for part, k in near if gap(moved, shapes[part][k])[0] < -TOLERANCE]:
                 pulls = _pulls(joint, position, moved, shapes[other][k], most)
@@ -76,10 +76,20 @@ def _ease(shapes: Shapes, joint: Joint, others: Mapping[str, Sequence[str]], mos
     return spent
 
 
+def _within_reach(shapes: Shapes, joint: Joint, others: Mapping[str, Sequence[str]]) -> dict[str, FloatArray]:
+    """(N, 2, 3) boxes around the shapes of each of the others that a joint may take its own to."""
+    mine = [box_corners(one.bounds) for name in others for one in shapes[name]]
+    reach = reach_box(joint, np.concatenate(mine)) if mine else np.zeros((2, 3))
+    names = {other for row in others.values() for other in row}
+    boxes = {name: np.array([one.bounds for one in shapes[name]]).reshape(-1, 2, 3) for name in names}
+    return {name: box for name, box in boxes.items() if len(sharing(reach, box))}
+
+
 def _others(asset: Asset, joint: Joint, excluded: Collection[frozenset[str]]) -> dict[str, list[str]]:
     """For each part that a joint moves, those that it does not move and that its way is not excluded with."""
     bodies = rigid_bodies(asset)
-    mine = [part.name for part in asset.parts if part.name in carried(asset, joint.child)]
+    names = carried(asset, joint.child)
+    mine = [part.name for part in asset.parts if part.name in names]
     moved = {int(bodies[asset.part_index(name)]) for name in mine}
     still = [part.name for part, body in zip(asset.parts, bodies, strict=True) if int(body) not in moved]
     return {name: [other for other in still if frozenset((name, other)) not in excluded] for name in mine}
@@ -118,14 +128,3 @@ def _way(joint: Joint, position: float, moved: Convex, other: Convex) -> FloatAr
         upper = np.minimum(moved.bounds[1], other.bounds[1])
         axis = np.cross(axis, (lower + upper) / 2 - np.array(joint.origin))
     return np.asarray(np.sign(position) * axis / max(float(np.linalg.norm(axis)), 1e-12))
-
-
-def _motion(joint: Joint, position: float) -> FloatArray:
-    """(4, 4) motion of what a joint moves, in the asset's frame."""
-    motion, origin = joint_motion(joint, position), np.array(joint.origin)
-    motion[:3, 3] += origin - motion[:3, :3] @ origin
-    return motion
-
-
-def _moved(shape: ConvexMesh, matrix: FloatArray) -> ConvexMesh:
-    return ConvexMesh(shape.vertices @ matrix[:3, :3].T + matrix[:3, 3], shape.faces)

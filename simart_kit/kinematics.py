@@ -101,6 +101,32 @@ def joint_motion(joint: Joint, position: float | Sequence[float]) -> FloatArray:
     return motion
 
 
+def moved_by(joint: Joint, position: float) -> FloatArray:
+    """`posed_T_rest` (4, 4), in the asset frame, of what a one-axis joint moves while all others rest."""
+    motion, origin = joint_motion(joint, position), np.array(joint.origin)
+    motion[:3, 3] += origin - motion[:3, :3] @ origin
+    return motion
+
+
+def reach_box(joint: Joint, points: FloatArray) -> FloatArray:
+    """(2, 3) corners of a box that (N, 3) points, N > 0, do not leave while a one-axis joint moves them [m].
+
+    Args:
+        joint: hinges count as if they made a full turn.
+        points: in the asset frame, at rest.
+    """
+    if not joint.turns:
+        ends = np.outer([0.0, *span(joint)], joint.axis)
+        return np.array([points.min(axis=0) + ends.min(axis=0), points.max(axis=0) + ends.max(axis=0)])
+    axis, origin = np.array(joint.axis), np.array(joint.origin)
+    away = points - origin
+    along = away @ axis
+    radius = float(np.linalg.norm(away - np.outer(along, axis), axis=1).max())
+    ends = origin + np.outer([along.min(), along.max()], axis)
+    wide = radius * np.sqrt(np.maximum(1 - axis**2, 0))
+    return np.array([ends.min(axis=0) - wide, ends.max(axis=0) + wide])
+
+
 def rotation(vector: FloatArray) -> FloatArray:
     """(3, 3) rotation about a (3,) rotation vector [rad] (Rodrigues' formula)."""
     angle = float(np.linalg.norm(vector))

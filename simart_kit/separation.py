@@ -9,10 +9,11 @@ import numpy as np
 
 from .arrays import FloatArray, IntArray
 from .asset import Asset, ConvexMesh, Joint, Limits
+from .bounds import box_corners
 from .clipping import extent, pulled_in
-from .convex_overlap import Convex, convex, gap
+from .convex_overlap import Convex, convex, gap, meets, sharing
 from .kept import kept
-from .kinematics import Positions, carried, rest_to_posed, span
+from .kinematics import Positions, carried, moved_by, reach_box, rest_to_posed, span
 from .sweeping import Sweep, free_range
 from .topology import connected
 
@@ -93,14 +94,13 @@ def overlaps_on_the_way(asset: Asset) -> tuple[Overlap, ...]:
         asset: with collision shapes.
     """
     found, shapes, bodies = dict[Pair, float](), _shapes(asset), rigid_bodies(asset)
-    for joint in asset.joints:
-        if span(joint) == (0.0, 0.0):
-            continue
-        both = [bodies[asset.part_index(name)] for name in (joint.parent, joint.child)]
-        alone = [row if body in both else [] for row, body in zip(shapes, bodies, strict=True)]
-        for position in _stops(span(joint), _LEAVING if joint.limits else _NEAR_REST):
-            met = _deepest(_posed(alone, asset, {joint.name: position}), bodies)
-            found |= {pair: max(depth, found.get(pair, 0.0)) for pair, depth in met.items()}
+    for joint in (joint for joint in asset.joints if span(joint) != (0.0, 0.0)):
+        carrier, mine = (
+            np.flatnonzero(bodies == bodies[asset.part_index(name)]) for name in (joint.parent, joint.child)
+        )
+        stops = _stops(span(joint), _LEAVING if joint.limits else _NEAR_REST)
+        met = _met(shapes, joint, mine.tolist(), carrier.tolist(), stops)
+        found |= {pair: max(depth, found.get(pair, 0.0)) for pair, depth in met.items()}
     return _named(asset, found)
 
 
@@ -119,12 +119,9 @@ def stopped_by_shapes(asset: Asset) -> tuple[Overlap, ...]:
     stopped = set[frozenset[int]]()  # pairs of rigid bodies
     for joint in (joint for joint in asset.joints if span(joint) != (0.0, 0.0)):
         moved = {asset.part_index(name) for name in carried(asset, joint.child)}
-        sides = np.isin(np.arange(len(asset.parts)), list(moved)).astype(np.int64)
-        met: dict[Pair, float] = {}
-        for position in _stops(span(joint), _NEAR_REST):
-            for pair, depth in _deepest(_posed(shapes, asset, {joint.name: position}), sides).items():
-                met[pair] = max(depth, met.get(pair, 0.0))
-        for pair, depth in met.items():
+        still = [part for part in range(len(asset.parts)) if part not in moved]
+        stops = _stops(span(joint), _NEAR_REST)
+        for pair, depth in _met(shapes, joint, sorted(moved), still, stops).items():
             if depth > STUCK and pair not in known and _rigid(bodies, pair) not in stopped:
                 found[pair] = max(depth, found.get(pair, 0.0))
                 if not _free(asset, joint, pair, moved):
@@ -143,6 +140,33 @@ def _free(asset: Asset, joint: Joint, pair: Pair, moved: Collection[int]) -> boo
     faces = [asset.mesh.faces[asset.face_part == part] for part in (mine, other)]
     limited = replace(joint, kind="revolute" if joint.turns else joint.kind, limits=Limits(*span(joint)))
     return free_range(limited, Sweep(asset.mesh.vertices, *faces), _STOPS) == span(joint)
+
+
+def _met(
+    shapes: Sequence[Sequence[Convex]],
+    joint: Joint,
+    moving: Collection[int],
+    still: Collection[int],
+    stops: Sequence[float],
+) -> dict[Pair, float]:
+    """How deep parts that a joint moves stand in others at some of these positions [m], where they do."""
+    found: dict[Pair, float] = {}
+    mine = [(part, one) for part in moving for one in shapes[part]]
+    others = [(part, one) for part in still for one in shapes[part]]
+    if not mine or not others:
+        return found
+    boxes = np.array([one.bounds for _, one in others])
+    near = sharing(reach_box(joint, np.concatenate([box_corners(one.bounds) for _, one in mine])), boxes)
+    boxes = boxes[near]
+    for posed_T_rest in (moved_by(joint, position) for position in stops if len(near)):
+        for part, one in mine:
+            moved = one.moved(posed_T_rest)
+            for other, shape in (others[near[k]] for k in meets(moved, boxes)):
+                depth = -(gap(moved, shape) if part < other else gap(shape, moved))[0]
+                if depth > TOLERANCE:
+                    pair = (min(part, other), max(part, other))
+                    found[pair] = max(depth, found.get(pair, 0.0))
+    return found
 
 
 def _stops(ends: tuple[float, float], shares: Sequence[float]) -> list[float]:

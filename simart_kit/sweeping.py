@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray
 from .asset import Joint
 from .bounds import bounds_of, triangle_bounds
-from .kinematics import joint_motion
+from .kinematics import moved_by
 from .rays import Rays
 from .shells import find_shells, signed_volumes
 from .triangles import areas, unit_normals
@@ -89,13 +90,7 @@ def free_range(joint: Joint, sweep: Sweep, steps: int) -> tuple[float, float]:
     """
     if joint.limits is None:
         raise ValueError(f"joint '{joint.name}' has no limits")
-    origin = np.array(joint.origin)
-
-    def motion(position: float) -> FloatArray:
-        matrix = joint_motion(joint, position)
-        matrix[:3, 3] += origin - matrix[:3, :3] @ origin
-        return matrix
-
+    motion = partial(moved_by, joint)
     lower, upper = (
         sweep.free(motion, end, steps) if end else 0.0 for end in (joint.limits.lower, joint.limits.upper)
     )

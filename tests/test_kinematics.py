@@ -16,8 +16,10 @@ from simart_kit.kinematics import (
     carried,
     forward,
     joint_motion,
+    moved_by,
     opened,
     ordered_joints,
+    reach_box,
     rest_origin,
     rest_to_posed,
     rotation,
@@ -230,3 +232,36 @@ def test_sampled_positions_lie_within_limits_and_follow_the_seed() -> None:
             assert lower <= value <= upper
     other = sample_positions(cabinet_asset(), np.random.default_rng(8))
     assert other != sample_positions(cabinet_asset(), np.random.default_rng(7))
+
+
+@pytest.mark.parametrize("kind", ["revolute", "continuous", "prismatic"])
+@given(seed=seeds)
+@settings(max_examples=40, deadline=None)
+def test_points_that_a_joint_moves_stay_in_its_reach_box(kind: Any, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    limits = None if kind == "continuous" else sk.Limits(-rng.uniform(0, 2), rng.uniform(0, 2))
+    origin, axis = vec3(rng.normal(size=3)), vec3(unit(rng.normal(size=3)))
+    joint = sk.Joint("joint", kind, "one", "two", origin, axis, limits)
+    points = rng.normal(size=(5, 3)) * rng.uniform(0, 2)
+    lower, upper = reach_box(joint, points)
+    for position in [0.0, *np.linspace(*span(joint), 7).tolist()]:
+        posed_T_rest = moved_by(joint, position)
+        posed = points @ posed_T_rest[:3, :3].T + posed_T_rest[:3, 3]
+        assert (posed >= lower - 1e-9).all()
+        assert (posed <= upper + 1e-9).all()
+
+
+def test_a_reach_box_is_no_larger_than_it_has_to_be() -> None:
+    slide = sk.Joint("slide", "prismatic", "one", "two", axis=(0, 1, 0), limits=sk.Limits(-1, 3))
+    np.testing.assert_allclose(reach_box(slide, np.array([[0, 0, 0], [1, 1, 1]])), [[0, -1, 0], [1, 4, 1]])
+    hinge = sk.Joint("hinge", "continuous", "one", "two", origin=(5, 0, 0), axis=(0, 0, 1))
+    np.testing.assert_allclose(reach_box(hinge, np.array([[5, 2, 1], [6, 0, 4]])), [[3, -2, 1], [7, 2, 4]])
+
+
+def test_what_one_joint_moves_is_where_the_tree_has_it() -> None:
+    asset = chain_asset()
+    for joint in (joint for joint in asset.joints if span(joint) != (0.0, 0.0)):
+        position = 0.6 * span(joint)[1]
+        np.testing.assert_allclose(
+            moved_by(joint, position), rest_to_posed(asset, {joint.name: position})[joint.child], atol=1e-12
+        )

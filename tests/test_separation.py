@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 
 import mujoco
@@ -230,3 +231,31 @@ class TestSeparated:
         before = pair(UNIT, block((1.01, 0, 0), (2, 1, 1)))
         after = separated(before, 0.002)
         assert [p.collision[0] for p in after.parts] == [p.collision[0] for p in before.parts]
+
+
+def keyboard(count: int) -> sk.Asset:
+    """Keys in rows of ten over a plate; each a little into the plate when pressed, and none at rest."""
+    plate = ((0.0, 0.0, 0.0), (0.2, 0.02 * (count // 10 + 1), 0.01))
+    places = [(0.02 * (k % 10), 0.02 * (k // 10)) for k in range(count)]
+    keys = [((x, y, 0.012), (x + 0.018, y + 0.018, 0.02)) for x, y in places]
+    parts = tuple(
+        sk.Part(name, collision=(block(*box),))
+        for name, box in zip(["plate", *(f"key_{k}" for k in range(count))], [plate, *keys], strict=True)
+    )
+    joints = tuple(
+        sk.Joint(f"press_{k}", "prismatic", "plate", f"key_{k}", axis=(0, 0, -1), limits=sk.Limits(0, 0.003))
+        for k in range(count)
+    )
+    faces = np.repeat(range(count + 1), 12)
+    return sk.Asset("keyboard", boxes_mesh([plate, *keys]), faces, parts, joints)
+
+
+def test_overlaps_of_two_hundred_keys_are_found_in_seconds() -> None:
+    # Each joint is looked at with what it reaches, not with all that there is.
+    asset = keyboard(200)
+    start = time.process_time()
+    met = overlaps_on_the_way(asset)
+    assert stopped_by_shapes(asset) == ()
+    assert time.process_time() - start < 10
+    assert [(pair.one, pair.other) for pair in met] == [("plate", f"key_{k}") for k in range(200)]
+    assert [pair.depth for pair in met] == pytest.approx([0.001] * 200)

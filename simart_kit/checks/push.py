@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 _STOPS = 9  # where its weight is felt
 _FIRM = 1.25  # times what holds a joint: weight grows on its way
 _LIFT, _HOLD = 1.5, 1.25  # times its weight on the joint: to lift it, and to overcome friction that holds it
+_RESTING, _AGAIN = 1e-4, 20  # [rad/s | m/s] at its limit, so many times ten steps in a row: it stays there
 
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float64)
 
@@ -122,10 +123,14 @@ class Push(Check):
         asked = _LIFT * uphill + _HOLD * weight
         force = self._force(model, data, dof, uphill if lift else 0.0, max(most_push, lift))
         data.qfrc_applied[dof] = sign * force
-        most = rest
+        most, still = rest, 0
         for _ in range(round(self.options.seconds / model.opt.timestep / 10)):
             mujoco.mj_step(model, data, nstep=10)
             most = max(most, float(data.qpos[address]), key=lambda q: sign * q)
+            resting = sign * (data.qpos[address] - limit) >= 0 and abs(data.qvel[dof]) < _RESTING
+            still = still + 1 if resting else 0
+            if still == _AGAIN:  # the same push holds it there from now on
+                break
         # Bouncing back at the limit does not count against it.
         opened = (most - rest) / (limit - rest) if limit != rest else 1.0
         over = max(sign * (float(data.qpos[address]) - limit), 0.0)
