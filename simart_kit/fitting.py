@@ -9,6 +9,7 @@ import numpy as np
 from .arrays import FloatArray, unit, vec3
 from .asset import ConvexMesh
 from .hulls import hull_of
+from .hulls import volume as volume_in
 from .primitive_meshes import pose, primitive_shape
 from .primitives import Primitive
 from .triangles import areas, unit_normals
@@ -26,7 +27,7 @@ def fitted(points: FloatArray, volume: float, filled: float = FILLED) -> ConvexM
 
     Args:
         points: [m].
-        volume: of the solid that they bound [m^3].
+        volume: of the solid that they bound [m^3]; what shells of it share may be counted twice.
         filled: share of the primitive that this has to be.
     """
     hull = hull_of(points)
@@ -35,7 +36,7 @@ def fitted(points: FloatArray, volume: float, filled: float = FILLED) -> ConvexM
 
 def fitted_to(hull: ConvexMesh, volume: float, filled: float = FILLED) -> ConvexMesh | None:
     """The same around points of which the hull is known."""
-    box = _box(hull)
+    box, volume = _box(hull), min(volume, volume_in(hull))
     candidates = [box] if _corners_stand_out(box, hull) <= _slack(box) else []
     candidates += [*_cylinders(hull, box), *_spheres(hull)]
     fitting = [c for c in candidates if volume >= filled * c.volume]

@@ -83,6 +83,14 @@ def test_a_prism_of_six_sides_stays_a_hull() -> None:
     assert fit(trimesh.creation.cylinder(0.05, 0.3, sections=6).vertices) is None
 
 
+def test_volume_that_was_counted_twice_makes_nothing_round() -> None:
+    # Surfaces that lie inside each other, as of a clock's case and works: no solid fills more than its hull.
+    corner = np.array([(0.5, 0.4), (0.4, 0.5), (-0.4, 0.5), (-0.5, 0.4)])
+    ring = np.concatenate([corner, -corner])
+    points = np.array([(x, y, z) for x, y in ring for z in (0.0, 0.2)])
+    assert fitted(points, 2 * 0.98 * 0.2) is None
+
+
 def test_a_sphere() -> None:
     found = primitive(placed(trimesh.creation.icosphere(3, 0.1).vertices))
     assert found.kind == "sphere"
