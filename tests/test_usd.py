@@ -13,6 +13,7 @@ from pxr import Sdf, Usd, UsdGeom, UsdPhysics, UsdShade, UsdUtils, UsdValidation
 from simart_kit_exporters.usd import Usd as UsdExporter
 from simart_kit_exporters.usd.frames import principal_axes, turn_x_to
 
+from simart_kit.arrays import unit
 from simart_kit.asset import Asset, Joint
 from simart_kit.kinematics import forward, sample_positions
 from simart_kit.testing.meshes import cabinet_asset, chain_asset, static_asset
@@ -251,7 +252,11 @@ def test_what_is_lost_is_told_with_its_names() -> None:
 
 
 @pytest.mark.parametrize(
-    "axis", [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, 0, -1), (0.6, 0.0, 0.8), (-0.6, -0.8, 0)]
+    "axis",
+    [
+        *[(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, 0, -1), (0.6, 0.0, 0.8), (-0.6, -0.8, 0)],
+        *[tuple(unit(np.array([-1.0, tilt, -2 * tilt]))) for tilt in (1e-3, 1e-4, 1e-5, 1e-9, 1e-14)],
+    ],
 )
 def test_turn_takes_x_to_the_axis(axis: tuple[float, float, float]) -> None:
     assert tuple(turn_x_to(axis).Transform((1, 0, 0))) == pytest.approx(axis, abs=1e-6)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import permutations
 from typing import TYPE_CHECKING
 
@@ -17,7 +18,11 @@ def turn_x_to(axis: Vec3) -> Gf.Quatf:
     """The shortest rotation that takes +X to a unit axis; half a turn about Z when that is -X."""
     from pxr import Gf
 
-    return Gf.Quatf(Gf.Rotation(Gf.Vec3d(1.0, 0.0, 0.0), Gf.Vec3d(*axis)).GetQuat())
+    x, y, z = axis
+    across = y * y + z * z
+    real = 1 + x if x > 0 else across / (1 - x)  # the same, and exact near -X too, where Gf.Rotation is not
+    length = math.hypot(real, y, z)
+    return Gf.Quatf(real / length, 0.0, -z / length, y / length) if length else Gf.Quatf(0.0, 0.0, 0.0, 1.0)
 
 
 def principal_axes(inertia: Mat3) -> tuple[FloatArray, FloatArray]:
