@@ -166,6 +166,16 @@ class TestGravity:
         assert ("by its own weight falls: hinge" in result.text) == falls
         assert (row["drift"] > 0.02) == falls
 
+    @pytest.mark.parametrize(("travel", "holds"), [(0.00015, True), (0.0003, False)])
+    def test_less_than_a_tenth_of_a_millimetre_is_no_drift(
+        self, travel: float, holds: bool, tmp_path: Path
+    ) -> None:
+        """Solvers' friction creeps by hundredths, which may be much of a button's travel."""
+        drawer = DRAWER.replace("0 0.2", f"0 {travel}")
+        result = judged("gravity", mjcf(tmp_path, drawer, 'stiffness="100" damping="5"'))
+        assert result.passed == holds
+        assert result.evidence["joints"]["slide"]["drift"] == pytest.approx(0.5, abs=0.05)
+
     def test_a_lid_that_creeps_though_its_friction_is_enough(self, tmp_path: Path) -> None:
         result = judged("gravity", mjcf(tmp_path, LID, 'frictionloss="12"'))
         assert (result.passed, result.text) == (False, "drifts, and not by its weight: hinge")

@@ -29,7 +29,9 @@ class Joints(Check):
         least_turn: float = Field(default=0.0175, ge=0, description="Least travel of a hinge [rad].")
         most_turn: float = Field(default=12.57, gt=0, description="Most travel of a hinge [rad].")
         least_slide: float = Field(
-            default=0.01, ge=0, description="Least travel of a slide, as a share of what it moves [diagonal]."
+            default=0.005,
+            ge=0,
+            description="Least travel of a slide, as a share of what it moves [diagonal].",
         )
         most_slide: float = Field(default=1.0, gt=0, description="Most travel of a slide [diagonal].")
         distance: float = Field(
