@@ -55,6 +55,12 @@ def aligned_box(lower: FloatArray, upper: FloatArray) -> ConvexMesh:
     return primitive_shape(Primitive("box", vec3(upper - lower), pose(np.eye(3), (lower + upper) / 2)))
 
 
+def cylinder_along(hull: ConvexMesh, axis: FloatArray) -> Primitive:
+    """The cylinder around a hull along a (3,) unit axis."""
+    x = unit(np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))]))
+    return _cylinder(hull, np.column_stack([x, np.cross(axis, x), axis]))
+
+
 def _box(hull: ConvexMesh) -> Primitive:
     """The smallest box along the asset's axes or the hull's largest faces."""
     boxes = [_box_along(rotation, hull.vertices) for rotation in (np.eye(3), _rotation(hull))]
@@ -104,12 +110,16 @@ def _slack(box: Primitive) -> float:
 def _cylinders(hull: ConvexMesh, box: Primitive) -> Iterator[Primitive]:
     """Cylinders around the hull along each axis of its box."""
     for axis in range(3):
-        rotation = np.roll(box.asset_T_shape[:3, :3], 2 - axis, axis=1)
-        local = hull.vertices @ rotation
-        middle, radius = _round_center(local[:, :2])
-        low, high = float(local[:, 2].min()), float(local[:, 2].max())
-        size = (2 * radius, 2 * radius, high - low)
-        yield Primitive("cylinder", size, pose(rotation, rotation @ np.array([*middle, (low + high) / 2])))
+        yield _cylinder(hull, np.roll(box.asset_T_shape[:3, :3], 2 - axis, axis=1))
+
+
+def _cylinder(hull: ConvexMesh, rotation: FloatArray) -> Primitive:
+    """The cylinder around the hull along the last column of a (3, 3) rotation."""
+    local = hull.vertices @ rotation
+    middle, radius = _round_center(local[:, :2])
+    low, high = float(local[:, 2].min()), float(local[:, 2].max())
+    size = (2 * radius, 2 * radius, high - low)
+    return Primitive("cylinder", size, pose(rotation, rotation @ np.array([*middle, (low + high) / 2])))
 
 
 def _spheres(hull: ConvexMesh) -> Iterator[Primitive]:

@@ -24,6 +24,7 @@ from simart_kit.hinge_relief import relieved
 from simart_kit.hookspecs import Register
 from simart_kit.hulls import MIN_THICKNESS, convex_hull
 from simart_kit.separation import Overlap, overlaps, separated
+from simart_kit.wheels import wheels
 
 Shapes = dict[str, Decomposition]  # by name of the part
 _MOST_FACES = 60_000  # of a part that shapes are fitted to; finer ones are coarsened first
@@ -41,9 +42,9 @@ class Collision(sk.Modifier):
 
         mode: Literal["auto", "decompose", "hull", "box", "none"] = Field(
             "auto",
-            description="auto: primitives where they fit, hulls of what is convex, and cuts along the part's "
-            "own planes, so that what is hollow stays hollow; decompose: the whole surface by `tool`; "
-            "hull: one convex hull; box: the bounding box; none: no shape",
+            description="auto: primitives where they fit, cylinders for wheels, hulls of what is convex, and "
+            "cuts along the part's own planes, so that what is hollow stays hollow; decompose: the whole "
+            "surface by `tool`; hull: one convex hull; box: the bounding box; none: no shape",
         )
         tool: Literal["vhacd", "coacd"] = Field(
             "vhacd",
@@ -75,8 +76,14 @@ class Collision(sk.Modifier):
         lacking = options.mode in ("auto", "decompose") and lacks(options.tool)
         if lacking:
             raise sk.BadInputError(f"modifier collision: {options.tool} is not installed: {lacking}")
-        surfaces = {part.name: _surface(asset, index) for index, part in enumerate(asset.parts)}
-        made = self._made(surfaces, Budget().tight, options.tool_timeout)
+        rolling = {name: Decomposition((w,)) for name, w in wheels(asset).items()}
+        rolling = rolling if options.mode == "auto" else {}
+        surfaces = {
+            part.name: _surface(asset, index)
+            for index, part in enumerate(asset.parts)
+            if part.name not in rolling
+        }
+        made = rolling | self._made(surfaces, Budget().tight, options.tool_timeout)
         done = self._placed(asset, made)
         found: Sequence[Overlap] = overlaps(done)
         if found and options.mode == "auto":
