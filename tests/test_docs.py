@@ -58,6 +58,7 @@ def test_example_segmenter_is_about_20_lines() -> None:
     assert len(lines) <= 26
 
 
+@pytest.mark.slow
 def test_example_plugins_keep_their_contracts(written: Path) -> None:
     options = ["-q", "-p", "no:cacheprovider", "-W", "error", "--rootdir", str(written)]
     command = [sys.executable, "-m", "pytest", *options, str(written)]
@@ -104,6 +105,7 @@ def entry_points_in(site: Path) -> list[EntryPoint]:
     return [point for found in distributions(path=[str(site)]) for point in found.entry_points]
 
 
+@pytest.mark.slow
 def test_command_of_the_page_works(written: Path) -> None:
     (line,) = re.findall(r"^    simart-kit (convert .*)$", TEXT, re.MULTILINE)
     shutil.copy(EXAMPLE, written / "cabinet.glb")

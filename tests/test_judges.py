@@ -43,6 +43,7 @@ def robots(tmp_path_factory: pytest.TempPathFactory) -> Folders:
     return written(assets.items(), tmp_path_factory.mktemp("robots"), ["urdf"])
 
 
+@pytest.mark.slow
 def test_light_judges_see_every_defect_and_find_none_in_what_we_write(
     converted: Callable[[str], sk.Result], tmp_path: Path
 ) -> None:

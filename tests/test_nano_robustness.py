@@ -115,7 +115,8 @@ def objects_side_by_side():
 
 
 MESHES = [
-    three_faces, one_face, square, fine_square, all_twice, many_small_boxes, objects_side_by_side,
+    three_faces, one_face, square, fine_square, all_twice, objects_side_by_side,
+    pytest.param(many_small_boxes, marks=pytest.mark.slow),
 ]  # fmt: skip
 
 
