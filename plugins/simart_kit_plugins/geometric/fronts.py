@@ -194,9 +194,12 @@ def _flat(scene: Scene, axes: FloatArray, pieces: tuple[int, ...]) -> float:
 
 def _within(inner: Box, outer: Box, margin: float) -> bool:
     """Whether one rectangle (u, v) lies in another."""
+    # One number after the other: it is asked of all pairs of pieces, and the first mostly tells.
     return bool(
-        (inner.lower[:2] >= outer.lower[:2] - margin).all()
-        and (inner.upper[:2] <= outer.upper[:2] + margin).all()
+        inner.lower[0] >= outer.lower[0] - margin
+        and inner.upper[0] <= outer.upper[0] + margin
+        and inner.lower[1] >= outer.lower[1] - margin
+        and inner.upper[1] <= outer.upper[1] + margin
     )
 
 
