@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arrays import FloatArray
+from .arrays import FloatArray, IntArray
 
 
 def bounds_of(points: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -22,3 +22,9 @@ def box_corners(bounds: FloatArray) -> FloatArray:
     """(8, 3) corners of the box between the (2, 3) bounds."""
     x, y, z = np.asarray(bounds).T
     return np.stack(np.meshgrid(x, y, z), axis=-1).reshape(-1, 3)
+
+
+def sharing(box: FloatArray, boxes: FloatArray) -> IntArray:
+    """Indices of the (N, 2, 3) boxes that share space with the (2, 3) box."""
+    lower, upper = box
+    return np.flatnonzero(((lower < boxes[:, 1]) & (boxes[:, 0] < upper)).all(axis=1))

@@ -9,6 +9,7 @@ import numpy as np
 
 from .arrays import FloatArray, IntArray
 from .asset import ConvexMesh
+from .bounds import sharing
 from .kept import kept
 from .primitive_meshes import pose
 from .topology import unique_rows
@@ -97,12 +98,6 @@ def convex(shape: ConvexMesh) -> Convex:
 def meets(one: Convex, boxes: FloatArray) -> IntArray:
     """Indices of the (N, 2, 3) boxes that share space with the one around a shape."""
     return sharing(one.bounds, boxes)
-
-
-def sharing(box: FloatArray, boxes: FloatArray) -> IntArray:
-    """Indices of the (N, 2, 3) boxes that share space with the (2, 3) box."""
-    lower, upper = box
-    return np.flatnonzero(((lower < boxes[:, 1]) & (boxes[:, 0] < upper)).all(axis=1))
 
 
 def gap(one: Convex, other: Convex) -> tuple[float, FloatArray]:

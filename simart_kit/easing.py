@@ -12,9 +12,9 @@ import numpy as np
 
 from .arrays import FloatArray
 from .asset import Asset, Joint
-from .bounds import box_corners
+from .bounds import box_corners, sharing
 from .clipping import extent, pulled_in
-from .convex_overlap import Convex, convex, gap, gap_across, meets, sharing
+from .convex_overlap import Convex, convex, gap, gap_across, meets
 from .kinematics import carried, moved_by, reach_box, span
 from .separation import CLEARANCE, TOLERANCE, overlaps_on_the_way, replaced, rigid_bodies
 

@@ -15,7 +15,7 @@ from .arrays import FloatArray
 from .asset import Asset, ConvexMesh, Joint
 from .clipping import extent, pulled_in
 from .convex_overlap import Convex, convex, gap, meets
-from .kinematics import carried, joint_motion, span
+from .kinematics import carried, moved_by, span
 from .separation import replaced, rigid_bodies
 
 _NEAR = 0.1  # of how far a leaf reaches from its axis: what is nearer is at the hinge
@@ -96,13 +96,11 @@ def _begun(joint: Joint, shape: ConvexMesh, distance: float) -> ConvexMesh | Non
 
 def _free(joint: Joint, own: Sequence[ConvexMesh], others: Sequence[Convex]) -> bool:
     """Whether shapes pass others all the way."""
-    origin, boxes = np.array(joint.origin), np.array([other.bounds for other in others])
+    boxes = np.array([other.bounds for other in others])
+    cornered = [Convex(replace(shape, primitive=None)) for shape in own]
     for position in np.linspace(*span(joint), _STOPS):
-        turn = joint_motion(joint, float(position))[:3, :3]
-        for shape in own:
-            turned = Convex(
-                replace(shape, vertices=(shape.vertices - origin) @ turn.T + origin, primitive=None)
-            )
+        posed_T_rest = moved_by(joint, float(position))
+        for turned in (shape.moved(posed_T_rest) for shape in cornered):
             if any(gap(turned, others[k])[0] < 0 for k in meets(turned, boxes).tolist()):
                 return False
     return True

@@ -103,9 +103,9 @@ def joint_motion(joint: Joint, position: float | Sequence[float]) -> FloatArray:
 
 def moved_by(joint: Joint, position: float) -> FloatArray:
     """`posed_T_rest` (4, 4), in the asset frame, of what a one-axis joint moves while all others rest."""
-    motion, origin = joint_motion(joint, position), np.array(joint.origin)
-    motion[:3, 3] += origin - motion[:3, :3] @ origin
-    return motion
+    if joint.turns:
+        return turned_about(np.array(joint.axis), np.array(joint.origin), position)
+    return joint_motion(joint, position)
 
 
 def reach_box(joint: Joint, points: FloatArray) -> FloatArray:
@@ -135,6 +135,14 @@ def rotation(vector: FloatArray) -> FloatArray:
     x, y, z = vector / angle
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.asarray(np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross))
+
+
+def turned_about(axis: FloatArray, origin: FloatArray, angle: float) -> FloatArray:
+    """(4, 4) motion of what turns by an angle [rad] about the line along a (3,) unit axis through a point."""
+    motion = np.eye(4)
+    motion[:3, :3] = rotation(axis * angle)
+    motion[:3, 3] = origin - motion[:3, :3] @ origin
+    return motion
 
 
 def span(joint: Joint) -> tuple[float, float]:

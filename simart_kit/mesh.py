@@ -9,7 +9,16 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from .arrays import ByteArray, FloatArray, IntArray, frozen_bytes, frozen_floats, frozen_ints, units
+from .arrays import (
+    BoolArray,
+    ByteArray,
+    FloatArray,
+    IntArray,
+    frozen_bytes,
+    frozen_floats,
+    frozen_ints,
+    units,
+)
 from .errors import BadInputError
 from .triangles import areas_and_normals
 
@@ -189,6 +198,10 @@ class Mesh:
     def diagonal(self) -> float:
         """Length of the bounding box's diagonal, in units."""
         return float(np.linalg.norm(self.bounds[1] - self.bounds[0]))
+
+    def points_of(self, faces: BoolArray) -> FloatArray:
+        """(N, 3) the vertices that the faces which (F,) marks use, each once."""
+        return self.vertices[np.unique(self.faces[faces])]
 
     def transformed(self, new_from_old: FloatArray) -> Mesh:
         """The mesh moved by a (4, 4) similarity; normals are turned with it."""

@@ -9,9 +9,9 @@ import numpy as np
 
 from .arrays import FloatArray, IntArray
 from .asset import Asset, ConvexMesh, Joint, Limits
-from .bounds import box_corners
+from .bounds import box_corners, sharing
 from .clipping import extent, pulled_in
-from .convex_overlap import Convex, convex, gap, meets, sharing
+from .convex_overlap import Convex, convex, gap, meets
 from .kept import kept
 from .kinematics import Positions, carried, moved_by, reach_box, rest_to_posed, span
 from .sweeping import Sweep, free_range

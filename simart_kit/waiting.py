@@ -9,7 +9,7 @@ import numpy as np
 
 from .arrays import BoolArray, FloatArray
 from .asset import Asset, Joint, Limits
-from .bounds import bounds_of
+from .bounds import bounds_of, sharing
 from .kinematics import carried, reach_box, rest_to_posed
 from .sweeping import Sweep, free_range, move
 
@@ -129,11 +129,11 @@ def _waited(asset: Asset, joint: Joint, found: Mapping[str, FreeRange], steps: i
     if not others or most.travel < least:
         return alone
     mine = _faces(asset, joint.child)
-    lower, upper = reach_box(joint, _points(asset, mine))
+    reach = reach_box(joint, asset.mesh.points_of(mine))
     blockers = [
         name
         for name, faces in others.items()
-        if _between(_points(asset, faces), lower, upper)
+        if len(sharing(reach, np.array([bounds_of(asset.mesh.points_of(faces))])))
         and _swept(asset, joint, {}, ~(faces | mine), steps, seed).travel < most.travel
     ]
     opened: dict[str, float] = {}
@@ -179,17 +179,6 @@ def _moved(asset: Asset, opened: Collection[str]) -> list[str]:
     """Names of the parts that move when joints are opened, in the asset's order."""
     names = set().union(*(carried(asset, asset.joint(name).child) for name in opened))
     return [part.name for part in asset.parts if part.name in names]
-
-
-def _between(points: FloatArray, lower: FloatArray, upper: FloatArray) -> bool:
-    """Whether the box around (N, 3) points meets the one between two corners."""
-    least, most = bounds_of(points)
-    return bool((least <= upper).all() and (lower <= most).all())
-
-
-def _points(asset: Asset, faces: BoolArray) -> FloatArray:
-    """(N, 3) corners of the faces that (F,) marks."""
-    return asset.mesh.vertices[np.unique(asset.mesh.faces[faces])]
 
 
 def _faces(asset: Asset, part: str) -> BoolArray:

@@ -35,9 +35,7 @@ def wheels(asset: Asset) -> dict[str, ConvexMesh]:
     for joint in asset.joints:
         if joint.kind != "continuous" or abs(joint.axis[2]) > _LEVEL:
             continue
-        points = asset.mesh.vertices[
-            np.unique(asset.mesh.faces[asset.face_part == asset.part_index(joint.child)])
-        ]
+        points = asset.mesh.points_of(asset.face_part == asset.part_index(joint.child))
         shape = _rolling(points, np.array(joint.origin), np.array(joint.axis), ground)
         if shape is not None:
             found[joint.child] = shape

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arrays import FloatArray
-from ..kinematics import rotation
+from ..kinematics import turned_about
 from .articulation import Articulation, LinkJoint, ordered
 
 STATES = 5
@@ -94,7 +94,4 @@ def motion(joint: LinkJoint, position: float) -> FloatArray:
     if joint.kind == "prismatic":
         matrix[:3, 3] = axis * position
         return matrix
-    origin = np.array(joint.origin or (0.0, 0.0, 0.0))
-    matrix[:3, :3] = rotation(axis * position)
-    matrix[:3, 3] = origin - matrix[:3, :3] @ origin
-    return matrix
+    return turned_about(axis, np.array(joint.origin or (0.0, 0.0, 0.0)), position)

@@ -32,7 +32,6 @@ class Gravity(Check):
         drift: float = Field(
             default=0.02, gt=0, le=1, description="Of a joint, at most [share of its range]."
         )
-
         slack: float = Field(
             default=1e-4,
             ge=0,

@@ -93,8 +93,7 @@ def _surface(subject: Subject, name: str) -> tuple[FloatArray, float]:
         colliders = subject.mechanism.body[name].colliders
         return (np.concatenate(colliders) if colliders else np.zeros((0, 3))), 0.0
     faces = asset.face_part == asset.part_index(name)
-    points = asset.mesh.vertices[np.unique(asset.mesh.faces[faces])]
-    return points, float(asset.mesh.face_areas[faces].sum())
+    return asset.mesh.points_of(faces), float(asset.mesh.face_areas[faces].sum())
 
 
 def _outside(mass: MassProperties, points: FloatArray) -> bool:

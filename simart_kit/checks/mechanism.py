@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import FloatArray, Vec3
 from ..asset import Asset, JointKind, MassProperties
 from ..errors import BadInputError
-from ..kinematics import rotation
+from ..kinematics import turned_about
 
 WORLD = "world"
 """What carries a joint that hangs on no body."""
@@ -165,10 +165,9 @@ def of_asset(asset: Asset) -> Mechanism:
 
 def _motion(link: Link, position: float) -> FloatArray:
     """(4, 4) motion of what hangs on a joint, in the world's frame at rest."""
-    motion, axis, origin = np.eye(4), np.array(link.axis), np.array(link.origin)
+    motion, axis = np.eye(4), np.array(link.axis)
     if link.kind in ("revolute", "continuous"):
-        motion[:3, :3] = rotation(axis * position)
-        motion[:3, 3] = origin - motion[:3, :3] @ origin
-    elif link.kind == "prismatic":
+        return turned_about(axis, np.array(link.origin), position)
+    if link.kind == "prismatic":
         motion[:3, 3] = axis * position
     return motion

@@ -20,7 +20,7 @@ from simart_kit.bench.formats.partnet_mobility import labelled, link_kinds
 from simart_kit.bench.formats.urdf import PARTNET_FILE
 from simart_kit.bench.formats.urdf_tree import read_tree
 from simart_kit.bench.formats.xml_files import numbers, read_xml
-from simart_kit.kinematics import rotation
+from simart_kit.kinematics import turned_about
 
 from ..loaders.guards import reading
 from ..loaders.pieces import Piece, bounded, joined
@@ -103,12 +103,10 @@ def _motion(joint: LinkJoint, position: float) -> FloatArray:
     matrix = np.eye(4)
     if not position or joint.axis is None or joint.origin is None:
         return matrix
-    axis, origin = np.array(joint.axis), np.array(joint.origin)
-    if joint.kind == "prismatic":
-        matrix[:3, 3] = axis * position
-    else:
-        matrix[:3, :3] = rotation(axis * position)
-        matrix[:3, 3] = origin - matrix[:3, :3] @ origin
+    axis = np.array(joint.axis)
+    if joint.kind != "prismatic":
+        return turned_about(axis, np.array(joint.origin), position)
+    matrix[:3, 3] = axis * position
     return matrix
 
 

@@ -76,8 +76,8 @@ class Collision(sk.Modifier):
         lacking = options.mode in ("auto", "decompose") and lacks(options.tool)
         if lacking:
             raise sk.BadInputError(f"modifier collision: {options.tool} is not installed: {lacking}")
-        rolling = {name: Decomposition((w,)) for name, w in wheels(asset).items()}
-        rolling = rolling if options.mode == "auto" else {}
+        round_ones = wheels(asset) if options.mode == "auto" else {}
+        rolling = {name: Decomposition((cylinder,)) for name, cylinder in round_ones.items()}
         surfaces = {
             part.name: _surface(asset, index)
             for index, part in enumerate(asset.parts)

@@ -38,8 +38,7 @@ class Drawing:
 
 def draw(asset: Asset, joint: Joint) -> Drawing:
     """Lines for any kind of joint; a fixed one, and one without an axis, has a label only."""
-    faces = asset.mesh.faces[asset.face_part == asset.part_index(joint.child)]
-    points = asset.mesh.vertices[np.unique(faces)]
+    points = asset.mesh.points_of(asset.face_part == asset.part_index(joint.child))
     if joint.turns:
         return _turn(asset, joint, points)
     if joint.kind == "prismatic":
