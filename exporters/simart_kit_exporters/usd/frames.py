@@ -22,7 +22,9 @@ def turn_x_to(axis: Vec3) -> Gf.Quatf:
     across = y * y + z * z
     real = 1 + x if x > 0 else across / (1 - x)  # the same, and exact near -X too, where Gf.Rotation is not
     length = math.hypot(real, y, z)
-    return Gf.Quatf(real / length, 0.0, -z / length, y / length) if length else Gf.Quatf(0.0, 0.0, 0.0, 1.0)
+    if not length:
+        return Gf.Quatf(0.0, 0.0, 0.0, 1.0)
+    return Gf.Quatf(real / length, 0.0, 0.0 - z / length, 0.0 + y / length)  # no -0 in the text
 
 
 def principal_axes(inertia: Mat3) -> tuple[FloatArray, FloatArray]:
