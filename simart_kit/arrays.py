@@ -67,6 +67,11 @@ def units(vectors: FloatArray, otherwise: Vec3 = (0.0, 0.0, 0.0)) -> FloatArray:
     return np.asarray(np.divide(vectors, length, out=result, where=length > 0))
 
 
+def sums_by(vectors: FloatArray, label: IntArray) -> FloatArray:
+    """(L, 3) sums of the (N, 3) vectors that have each of the labels 0.., all of which occur."""
+    return np.column_stack([np.bincount(label, column) for column in vectors.T])
+
+
 def _freeze(array: NDArray[T]) -> NDArray[T]:
     array.setflags(write=False)
     return array

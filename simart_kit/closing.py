@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .arrays import FloatArray, IntArray, units
+from .bounds import bounds_of
+from .grouping import gathered
 from .hulls import hull_of, volume
 from .pieces import Piece, hulled, piece_of, simpler, solid_body
 from .rims import holes, rim
-from .sheets import SHEET, boards
-from .shells import Shells
+from .sheets import LEAST_BOARDS, SHEET, boards
+from .shells import Shells, signed_volumes
 from .triangles import areas
 
 if TYPE_CHECKING:
     from manifold3d import Manifold
+
+MOST_PIECES = 1024
+"""Shells of a surface that are looked at one by one, and patches of its sheets: a few milliseconds each."""
 
 _THIN_WALLED = 0.5  # of its hull: a capped solid below this has walls, and is not a filled box
 _LID = 0.1  # of its area that caps may have for a solid to be closed at all
@@ -23,20 +29,46 @@ _BOARD, _SLENDERNESS = 0.01, 0.1  # [m], and of the square root of its area: wha
 _LENS = 1.5  # times the board that an open shell stands for: a hull below this is what the shell is
 
 
-def pieces_of(shells: Shells) -> list[Piece]:
-    """Solids for all shells, in their order; a sheet gives one for each of its flat patches."""
-    found = []
-    for index, (faces, points) in enumerate(zip(shells.split(), shells.points(), strict=True)):
-        if len(points):
-            corners = shells.faces[faces]
-            found += _pieces(shells.vertices, corners, points, closed=bool(shells.closed[index]))
+def pieces_of(shells: Shells, most: int = MOST_PIECES) -> list[Piece]:
+    """Solids for shells; a sheet gives one for each of its flat patches.
+
+    Thousands of shells, as leaves and needles are, would take seconds: beyond `most`, smaller ones share the
+    hull of those that lie around the same larger one, and the patches of sheets do, too.
+
+    Args:
+        shells: of a surface.
+        most: shells to look at one by one, and about so many patches of sheets.
+    """
+    found, split, points = list[Piece](), shells.split(), shells.points()
+    solid, area = _solids(shells), shells.areas
+    open_area = max(float(area[~shells.closed].sum()), 1e-300)
+    filled = np.flatnonzero([len(some) > 0 for some in points])
+    boxes = np.array([bounds_of(points[index]) for index in filled]).reshape(-1, 2, 3)
+    for group in gathered(boxes, most, most // 2):
+        index, *others = filled[group].tolist()
+        if others:
+            together = hulled(np.concatenate([points[i] for i in (index, *others)]))
+            held = min(float(solid[[index, *others]].sum()), together.hull_volume)
+            found.append(replace(together, volume=held))
+            continue
+        patches = max(int(most * area[index] / open_area), LEAST_BOARDS)
+        faces = shells.faces[split[index]]
+        found += _pieces(shells.vertices, faces, points[index], bool(shells.closed[index]), patches)
     return found
 
 
-def _pieces(vertices: FloatArray, faces: IntArray, points: FloatArray, closed: bool) -> list[Piece]:
+def _solids(shells: Shells) -> FloatArray:
+    """(S,) volume that each shell holds if it is closed, or that a board of it has [m^3]."""
+    held = np.bincount(shells.face_shell, signed_volumes(shells.triangles), shells.count)
+    return np.asarray(np.where(shells.closed, np.abs(held), SHEET * shells.areas))
+
+
+def _pieces(
+    vertices: FloatArray, faces: IntArray, points: FloatArray, closed: bool, patches: int
+) -> list[Piece]:
     hull = hull_of(points)
     if hull is None:
-        return boards(vertices, faces, points.mean(axis=0))
+        return boards(vertices, faces, points.mean(axis=0), patches)
     body = solid_body(vertices, faces) if closed else None
     if body is not None:
         return [piece_of(simpler(body))]
@@ -44,8 +76,8 @@ def _pieces(vertices: FloatArray, faces: IntArray, points: FloatArray, closed: b
     board = min(_BOARD, _SLENDERNESS * np.sqrt(area)) * area
     if volume(hull) < _LENS * board:
         return [hulled(points)]
-    capped_body = _capped(vertices, faces, area)
-    return [piece_of(simpler(capped_body))] if capped_body else boards(vertices, faces, points.mean(axis=0))
+    capped = _capped(vertices, faces, area)
+    return [piece_of(simpler(capped))] if capped else boards(vertices, faces, points.mean(axis=0), patches)
 
 
 def _capped(vertices: FloatArray, faces: IntArray, area: float) -> Manifold | None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from .arrays import FloatArray, IntArray
 from .asset import ConvexMesh
-from .closing import pieces_of
+from .closing import MOST_PIECES, pieces_of
 from .convex_decomposition import DecompositionError, Tool, run_tool
 from .cutting import WORK, cut, cut_tight, is_loose
 from .fitting import fitted_to
@@ -35,6 +35,7 @@ _LARGE = 0.01  # of the hull of all: excess from which on a piece is not joined 
 _HOPELESS = 1.3  # times its solid: what a hull may hold when cutting has ended, before a tool is asked
 _WORTH_A_TOOL = 0.01  # of the hull of all: excess from which on a tool is asked
 _MOST_HOLDERS = 64
+_UNITED = 20_000  # faces of solids that are put together to see what they fill
 _INSIDE = 1e-4  # [m] that something hidden in a shape may look out of it
 
 
@@ -66,10 +67,12 @@ class Surface:
     Attributes:
         vertices: (V, 3) [m].
         faces: (F, 3).
+        most: pieces that it may come apart into, see `closing.pieces_of`.
     """
 
     vertices: FloatArray
     faces: IntArray
+    most: int = MOST_PIECES
 
     @cached_property
     def whole(self) -> Piece:
@@ -79,7 +82,7 @@ class Surface:
     @cached_property
     def pieces(self) -> list[Piece]:
         """The solids of its shells."""
-        return pieces_of(find_shells(self.vertices, self.faces))
+        return pieces_of(find_shells(self.vertices, self.faces), self.most)
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,7 +192,10 @@ def _round(piece: Piece) -> ConvexMesh | None:
 
 
 def _solid_volume(pieces: Sequence[Piece], enough: float) -> float:
-    """[m^3] that the pieces fill together. What overlaps counts once, where that can matter for `enough`."""
+    """[m^3] that the pieces fill together. What overlaps counts once, where that can matter for `enough`.
+
+    Of very many faces, those of the largest pieces count: it is no less than that.
+    """
     import manifold3d
 
     total = sum(p.volume for p in pieces)
@@ -197,12 +203,16 @@ def _solid_volume(pieces: Sequence[Piece], enough: float) -> float:
     if total < enough or len(bodies) < 2:
         return total
     rest = total - sum(b.volume() for b in bodies)
+    bodies.sort(key=lambda body: -body.volume())
+    faces = np.cumsum([body.num_tri() for body in bodies])
+    bodies = bodies[: max(int(np.searchsorted(faces, _UNITED, side="right")), 1)]
     return float(rest + manifold3d.Manifold.batch_boolean(bodies, manifold3d.OpType.Add).volume())
 
 
 def _visible(pieces: Sequence[Piece], tight: float) -> list[Piece]:
     """The pieces that do not lie within a single filled one, as the inside of a wall and repeats do."""
     size = np.array([p.hull_volume for p in pieces])
+    lower, upper = (np.array([getattr(p, end) for p in pieces]).reshape(-1, 3) for end in ("lower", "upper"))
     order = np.argsort(-size, kind="stable")
     hidden = np.zeros(len(pieces), dtype=bool)
     filled = [int(i) for i in order if pieces[i].hull_volume <= tight * pieces[i].volume]
@@ -214,7 +224,10 @@ def _visible(pieces: Sequence[Piece], tight: float) -> list[Piece]:
             continue
         normals = unit_normals(hull.vertices[hull.faces])
         ends = np.einsum("fi,fi->f", normals, hull.vertices[hull.faces[:, 0]]) + _INSIDE
-        for i in np.flatnonzero(~hidden & (size <= size[holder])).tolist():
+        within = (lower >= lower[holder] - _INSIDE).all(axis=1) & (upper <= upper[holder] + _INSIDE).all(
+            axis=1
+        )
+        for i in np.flatnonzero(within & ~hidden & (size <= size[holder])).tolist():
             if i != holder and (pieces[i].points @ normals.T <= ends).all():
                 hidden[i] = True
     return [piece for piece, skipped in zip(pieces, hidden, strict=True) if not skipped]

@@ -84,7 +84,9 @@ def _hollow(
     held = void & (owner >= 0)
     voids = np.bincount(owner[held], np.abs(volumes[held]), len(factor))
     lining = np.bincount(owner[held], areas[held], len(factor))
-    thickness = 2 * (np.abs(volumes) - voids) / (areas + lining)
+    surface = areas + lining
+    thickness = np.zeros(len(factor))  # of a shell without area, too
+    np.divide(2 * (np.abs(volumes) - voids), surface, out=thickness, where=surface > 0)
     walled = filled & ((thickness > build.solid_up_to) | ((voids > 0) & (thickness < FILM * build.wall)))
     return walled, held & walled[owner]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .arrays import FloatArray
+from .bounds import bounds_of
 from .hulls import MIN_THICKNESS
 
 _MOST_CANDIDATES = 512
@@ -12,7 +13,9 @@ _MOST_CANDIDATES = 512
 
 def grouped(boxes: list[FloatArray], most: int) -> list[list[int]]:
     """Indices of (2, 3) boxes in `most` groups or fewer, joining those that grow least by it."""
-    groups, bounds = _candidates(np.array(boxes))
+    corners = np.array(boxes)
+    groups = gathered(corners, _MOST_CANDIDATES)
+    bounds = np.array([bounds_of(corners[group].reshape(-1, 3)) for group in groups])
     growth = np.array([_growth(bounds, i) for i in range(len(groups))])
     for _ in range(len(groups) - most):
         one, two = sorted(int(i) for i in np.unravel_index(growth.argmin(), growth.shape))
@@ -24,19 +27,24 @@ def grouped(boxes: list[FloatArray], most: int) -> list[list[int]]:
     return [sorted(group) for group in groups if group]
 
 
-def _candidates(boxes: FloatArray) -> tuple[list[list[int]], FloatArray]:
-    """The largest boxes, each with the smaller ones that have their middle nearest to its own."""
+def gathered(boxes: FloatArray, most: int, alone: int = 0) -> list[list[int]]:
+    """Indices of (N, 2, 3) boxes in `most` groups or fewer: smaller ones go where the nearest large one is.
+
+    Args:
+        boxes: lowest and highest corners.
+        most: groups, each around one of the largest boxes.
+        alone: how many of these, the largest ones, stay by themselves; fewer than `most`.
+    """
     from scipy.spatial import cKDTree
 
-    size = np.linalg.norm(boxes[:, 1] - boxes[:, 0], axis=1)
-    order = np.argsort(-size, kind="stable")
-    large, small = np.sort(order[:_MOST_CANDIDATES]), np.sort(order[_MOST_CANDIDATES:])
-    groups, bounds = [[int(i)] for i in large], boxes[large].copy()
-    nearest = np.asarray(cKDTree(boxes[large].mean(axis=1)).query(boxes[small].mean(axis=1))[1])
-    for box, group in zip(small.tolist(), nearest.tolist(), strict=True):
-        groups[group].append(box)
-        bounds[group] = _union(bounds[group], boxes[box])
-    return groups, bounds
+    order = np.argsort(-np.linalg.norm(boxes[:, 1] - boxes[:, 0], axis=1), kind="stable")
+    leads, small = np.sort(order[alone:most]), np.sort(order[most:])
+    groups = {int(i): [int(i)] for i in np.sort(order[:most])}
+    if len(small):
+        nearest = cKDTree(boxes[leads].mean(axis=1)).query(boxes[small].mean(axis=1))[1]
+        for box, lead in zip(small.tolist(), leads[nearest].tolist(), strict=True):
+            groups[lead].append(box)
+    return list(groups.values())
 
 
 def _growth(bounds: FloatArray, index: int) -> FloatArray:

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .arrays import FloatArray
+from .arrays import FloatArray, unit
 from .asset import Asset, ConvexMesh, Joint
 from .clipping import extent, pulled_in
 from .convex_overlap import Convex, convex, gap, meets
@@ -49,9 +49,9 @@ def _relieve(asset: Asset, shapes: Shapes, joint: Joint) -> bool:
     """Change the shapes that a hinge moves; returns whether they had to give way, and could."""
     mine = [part.name for part in asset.parts if part.name in carried(asset, joint.child)]
     reach = max((float(_distances(joint, s).max()) for name in mine for s in shapes[name]), default=0.0)
-    near = _NEAR * reach
-    others = [convex(s) for s in _beside(asset, shapes, joint, mine) if _nearest(joint, s) < near]
-    own = {name: [i for i, s in enumerate(shapes[name]) if _nearest(joint, s) < near] for name in mine}
+    near, ways = _NEAR * reach, _ways(np.array(joint.axis))
+    others = [convex(s) for s in _beside(asset, shapes, joint, mine) if _nearest(joint, s, ways) < near]
+    own = {name: [i for i, s in enumerate(shapes[name]) if _nearest(joint, s, ways) < near] for name in mine}
     if not others or _free(joint, [shapes[n][i] for n in mine for i in own[n]], others):
         return False
     for distance in near * np.arange(1, _TRIES + 1) / _TRIES:
@@ -112,11 +112,13 @@ def _distances(joint: Joint, shape: ConvexMesh) -> FloatArray:
     return np.asarray(np.linalg.norm(np.cross(away, np.array(joint.axis)), axis=1))
 
 
-def _nearest(joint: Joint, shape: ConvexMesh) -> float:
-    """How near a shape comes to an axis [m], from below: seen along the axis, in 36 directions."""
-    axis = np.array(joint.axis)
-    first = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
-    first /= np.linalg.norm(first)
+def _ways(axis: FloatArray) -> FloatArray:
+    """(36, 3) unit ways from a (3,) axis, all around it."""
+    first = unit(np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))]))
     angles = np.linspace(0, 2 * np.pi, 36, endpoint=False)[:, None]
-    ways = np.cos(angles) * first + np.sin(angles) * np.cross(axis, first)
+    return np.asarray(np.cos(angles) * first + np.sin(angles) * np.cross(axis, first))
+
+
+def _nearest(joint: Joint, shape: ConvexMesh, ways: FloatArray) -> float:
+    """How near a shape comes to an axis [m], from below: seen along the axis, in (N, 3) unit `ways`."""
     return float(((shape.vertices - np.array(joint.origin)) @ ways.T).min(axis=0).max())

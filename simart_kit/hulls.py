@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
-from .arrays import FloatArray, IntArray
+from .arrays import FloatArray, IntArray, frozen_floats
 from .asset import ConvexMesh
 from .farthest import farthest
 from .triangles import crosses
@@ -24,7 +26,7 @@ def hull_of(points: FloatArray) -> ConvexMesh | None:
     from scipy.spatial import ConvexHull, QhullError
 
     if len(points) > _MANY_POINTS:
-        points = points[_farthest(points, _MANY_DIRECTIONS)]
+        points = points[outermost(points, _MANY_DIRECTIONS)]
     try:
         hull = ConvexHull(points)
     except QhullError:
@@ -66,7 +68,7 @@ def convex_hull(points: FloatArray, max_vertices: int = 64, thickness: float = M
     assert hull is not None  # thick in three directions
     if len(hull.vertices) <= max_vertices:
         return hull
-    fewer = hull_of(_thickened(hull.vertices[_farthest(hull.vertices, max_vertices)], thickness))
+    fewer = hull_of(_thickened(hull.vertices[outermost(hull.vertices, max_vertices)], thickness))
     assert fewer is not None
     return fewer
 
@@ -77,17 +79,18 @@ def volume(shape: ConvexMesh) -> float:
     return float(np.einsum("ni,ni->", a, crosses(np.stack([np.zeros_like(a), b, c], axis=1))) / 6)
 
 
+@cache
 def sphere_directions(count: int) -> FloatArray:
     """(N, 3) unit directions evenly over a sphere: a Fibonacci spiral."""
     step = np.arange(count) + 0.5
     z = 1 - 2 * step / count
     ring = np.sqrt(1 - z**2)
     turn = _GOLDEN_ANGLE * step
-    return np.column_stack([ring * np.cos(turn), ring * np.sin(turn), z])
+    return frozen_floats(np.column_stack([ring * np.cos(turn), ring * np.sin(turn), z]))
 
 
-def _farthest(points: FloatArray, count: int) -> IntArray:
-    """Indices of the farthest points along the six axes and over a Fibonacci sphere, `count` at most."""
+def outermost(points: FloatArray, count: int) -> IntArray:
+    """Indices of the (N, 3) points that lie farthest along six axes and over a sphere, `count` at most."""
     sphere = sphere_directions(count - 6)
     directions = np.concatenate([np.eye(3), -np.eye(3), sphere])
     return np.unique(farthest(points, directions))

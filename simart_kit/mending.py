@@ -6,10 +6,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from .hulls import hull_corners
+from .hulls import hull_corners, outermost
 from .pieces import Piece
 
 _TOUCHING = 1e-6  # [m]
+_MANY_CORNERS = 128  # of a hull that is looked at again and again
+_MOST_JOINS = 24  # pieces that each may be joined with as it touches them, those that it grows least by
 _NEAR = 4  # pieces that each may be joined with where there are too many, besides those that it touches
 
 
@@ -53,7 +55,8 @@ def _joins(pieces: Mapping[int, Piece], key: int, near: int) -> dict[tuple[int, 
     touching = (np.maximum(mine.lower - upper, lower - mine.upper) <= _TOUCHING).all(axis=1)
     common = (np.maximum(upper, mine.upper) - np.minimum(lower, mine.lower)).prod(axis=1)
     growth = common - (upper - lower).prod(axis=1)
-    chosen = set(np.flatnonzero(touching).tolist()) | set(np.argsort(growth, kind="stable")[:near].tolist())
+    order = np.argsort(growth, kind="stable")
+    chosen = {*order[touching[order]][:_MOST_JOINS].tolist(), *order[:near].tolist()}
     pairs = [(min(key, others[i]), max(key, others[i])) for i in sorted(chosen)]
     return {(i, j): _together(pieces[i], pieces[j]) for i, j in pairs}
 
@@ -64,4 +67,6 @@ def _together(one: Piece, two: Piece) -> Piece:
     if hull is None:
         return Piece(points, total, total, None)
     corners, size = hull
+    if len(corners) > _MANY_CORNERS:  # shapes have fewer in the end
+        corners = corners[outermost(corners, _MANY_CORNERS)]
     return Piece(corners, min(total, size), size, None)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .arrays import UP, FloatArray, IntArray, units
+from .arrays import UP, FloatArray, IntArray, sums_by, units
 from .mesh import Mesh
 from .topology import weld
 
@@ -37,7 +37,7 @@ def _corner_sums(mesh: Mesh, crease: float) -> FloatArray:
     position = weld(mesh.vertices, mesh.diagonal * 1e-7)[mesh.faces].ravel()
     face = np.arange(len(position)) // 3
     weighted = mesh.face_normals * mesh.face_areas[:, None]
-    sums = _summed(weighted[face], position)
+    sums = sums_by(weighted[face], position)
     # Faces within half the crease of a direction are within the crease of each other: no pairs to look at.
     slant = np.einsum("ij,ij->i", units(sums)[position], mesh.face_normals[face])
     creased = np.bincount(position, slant < np.cos(crease / 2)) > 0
@@ -53,7 +53,7 @@ def _corner_sums(mesh: Mesh, crease: float) -> FloatArray:
         own = face[corners][row]
         near = np.einsum("ij,ij->i", mesh.face_normals[own], mesh.face_normals[other]) >= np.cos(crease)
         near |= own == other
-        shared[corners] = _summed(weighted[other[near]], row[near])
+        shared[corners] = sums_by(weighted[other[near]], row[near])
     return shared
 
 
@@ -75,8 +75,3 @@ class _FacesAt:
         row = np.repeat(np.arange(len(positions)), count)
         within = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
         return row, self._face[self._start[positions][row] + within]
-
-
-def _summed(vectors: FloatArray, group: IntArray) -> FloatArray:
-    """(G, 3) sums of (N, 3) vectors over groups that all have a member."""
-    return np.column_stack([np.bincount(group, vectors[:, axis]) for axis in range(3)])

@@ -10,7 +10,7 @@ import numpy as np
 
 from .arrays import FloatArray, IntArray
 from .asset import ConvexMesh
-from .hulls import convex_hull, hull_of, volume
+from .hulls import convex_hull, hull_corners, hull_of, volume
 from .topology import without_gaps
 
 if TYPE_CHECKING:
@@ -64,9 +64,11 @@ def piece_of(body: Manifold) -> Piece:
 
 
 def hulled(points: FloatArray) -> Piece:
-    """The piece that fills the hull of (N, 3) points."""
-    shape = convex_hull(points, max(len(points), 8))
-    return Piece(points, volume(shape), volume(shape), None)
+    """The piece that fills the hull of (N, 3) points; it keeps only the corners of that."""
+    found = hull_corners(points)
+    corners = points if found is None else found[0]
+    shape = convex_hull(corners, max(len(corners), 8))
+    return Piece(corners, volume(shape), volume(shape), None)
 
 
 def solid_body(vertices: FloatArray, faces: IntArray) -> Manifold | None:

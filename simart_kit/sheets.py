@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from .arrays import FloatArray, IntArray
+from .arrays import FloatArray, IntArray, sums_by, units
+from .bounds import bounds_of
+from .grouping import gathered
 from .pieces import Piece, hulled, piece_of, solid_body
 from .rims import rim
 from .rough_sheets import walls
-from .topology import connected, neighbours, without_gaps
+from .topology import connected, neighbours, stable_order, without_gaps
 from .triangles import areas, crosses, unit_normals
 
 SHEET = 0.004
@@ -16,35 +20,66 @@ SHEET = 0.004
 
 # Least cosine in a flat patch, the next one where there would be more boards than this.
 _FLAT_PATCHES = tuple(float(np.cos(np.radians(angle))) for angle in (15.0, 30.0, 45.0, 60.0))
-_MOST_BOARDS = 400
+_MANY_BOARDS = 400
 _MOST_PATCHES = 64
+LEAST_BOARDS = 8
+"""Boards that even a small sheet beside large ones may have."""
+
 _CRUMB, _ROUGH = 1e-3, 0.05  # of a sheet: what no smooth one comes apart into, and how much of it does so
 
 
-def boards(vertices: FloatArray, faces: IntArray, middle: FloatArray) -> list[Piece]:
-    """A board for each flat patch of a sheet, on the side of `middle`: outside, nothing stands out."""
+def boards(vertices: FloatArray, faces: IntArray, middle: FloatArray, most: int) -> list[Piece]:
+    """Boards for the flat patches of a sheet, on the side of `middle`: outside, nothing stands out.
+
+    Args:
+        vertices: (V, 3) [m].
+        faces: (F, 3).
+        middle: (3,) of the sheet [m].
+        most: boards; where there are more patches, smaller ones share the hull of those around a larger one.
+    """
     found = (walls(vertices, faces, SHEET) if _is_rough(vertices, faces) else None) or []
     if found:
         return found
-    for patch in _flat_patches(vertices, faces):
-        corners = faces[patch]
-        normal = crosses(vertices[corners]).sum(axis=0)
-        length = float(np.linalg.norm(normal))
-        if length == 0:
-            continue
-        normal /= length
-        inward = float(normal @ (middle - vertices[corners].mean(axis=(0, 1))))
-        flat_enough = abs(inward) < SHEET / 2
-        step = -normal * SHEET if flat_enough or inward < 0 else normal * SHEET
-        found.append(_board(vertices, corners, step))
+    patch, triangles = _flat_patches(vertices, faces), vertices[faces]
+    inward, area = _inwards(triangles, patch, middle), areas(triangles)
+    order, _ = stable_order(patch.astype(np.int64))
+    split = np.split(order, np.cumsum(np.bincount(patch))[:-1])
+    boxes = np.array([bounds_of(triangles[some].reshape(-1, 3)) for some in split])
+    for group in gathered(boxes, most, most // 2):
+        some = np.concatenate([split[label] for label in group if inward[label].any()] or [order[:0]])
+        if len(group) > 1 and len(some):
+            found.append(_shared(triangles[some], inward[patch[some]], float(area[some].sum())))
+        elif len(some):
+            found.append(_board(vertices, faces[some], inward[group[0]]))
     return found or [hulled(vertices[np.unique(faces)])]
+
+
+def _inwards(triangles: FloatArray, patch: IntArray, middle: FloatArray) -> FloatArray:
+    """(P, 3) from each patch to the other side of its board; zeros if it looks no way.
+
+    Args:
+        triangles: (F, 3, 3) [m].
+        patch: (F,) that each lies in.
+        middle: (3,) of the sheet [m].
+    """
+    normal = units(sums_by(crosses(triangles), patch))
+    centre = sums_by(triangles.mean(axis=1), patch) / np.bincount(patch)[:, None]
+    inward = np.einsum("pi,pi->p", normal, middle - centre)
+    outside = (np.abs(inward) < SHEET / 2) | (inward < 0)
+    return np.asarray(np.where(outside, -SHEET, SHEET)[:, None] * normal)
+
+
+def _shared(triangles: FloatArray, inward: FloatArray, area: float) -> Piece:
+    """One hull around boards of patches: (F, 3, 3) triangles with the (F, 3) ways through their boards."""
+    whole = hulled(np.concatenate([triangles, triangles + inward[:, None]]).reshape(-1, 3))
+    return replace(whole, volume=min(SHEET * area, whole.hull_volume))
 
 
 def _is_rough(vertices: FloatArray, faces: IntArray) -> bool:
     """Whether much of a sheet lies in very many patches too small to be walls, bevels or curves."""
     patch = _patches(vertices, faces, _FLAT_PATCHES[0])
     size = np.bincount(patch, areas(vertices[faces]))
-    return len(size) > _MOST_BOARDS and bool(size[size < _CRUMB * size.sum()].sum() > _ROUGH * size.sum())
+    return len(size) > _MANY_BOARDS and bool(size[size < _CRUMB * size.sum()].sum() > _ROUGH * size.sum())
 
 
 def _board(vertices: FloatArray, faces: IntArray, step: FloatArray) -> Piece:
@@ -61,14 +96,13 @@ def _board(vertices: FloatArray, faces: IntArray, step: FloatArray) -> Piece:
     return hulled(both) if body is None else piece_of(body)
 
 
-def _flat_patches(vertices: FloatArray, faces: IntArray) -> list[IntArray]:
-    """The faces of each flat patch; of a rough sheet, the less flat ones without which there are too many."""
+def _flat_patches(vertices: FloatArray, faces: IntArray) -> IntArray:
+    """(F,) flat patch of each face; of a rough sheet, less flat ones without which there are too many."""
     for flat in _FLAT_PATCHES:
         patch = _patches(vertices, faces, flat)
-        if int(patch.max()) < _MOST_BOARDS:
+        if int(patch.max()) < _MANY_BOARDS:
             break
-    order = np.argsort(patch, kind="stable")
-    return np.split(order, np.flatnonzero(np.diff(patch[order])) + 1)
+    return patch
 
 
 def _patches(vertices: FloatArray, faces: IntArray, flat: float) -> IntArray:

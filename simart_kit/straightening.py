@@ -12,7 +12,6 @@ import numpy as np
 
 from .arrays import FloatArray, IntArray
 from .hulls import hull_corners
-from .kept import kept
 from .pieces import Piece
 from .triangles import areas
 
@@ -20,7 +19,7 @@ _SPARSE = 10.0  # times its solid: what the hull of bent rods holds at least; th
 _STRAIGHT = 1.5  # times its solid: what the hull of a straight run holds at most
 _GAIN = 0.7  # of a hull that the hulls of its halves may hold together, or else it stays whole
 _THICK = 4  # times the volume behind a unit of its surface: the diameter of a rod
-_MOST_HALVINGS = 8
+_MOST_HALVINGS, _MOST_RUNS = 8, 2048  # of a piece, of all
 
 
 def straightened(pieces: Sequence[Piece], faces: int) -> list[Piece]:
@@ -30,25 +29,29 @@ def straightened(pieces: Sequence[Piece], faces: int) -> list[Piece]:
         pieces: solids.
         faces: up to which a piece stays as it is: few are better cut.
     """
-    return [run for piece in pieces for run in _runs(piece, faces)]
+    bent = [_is_bent(piece, faces) for piece in pieces]
+    halvings = min(int(np.log2(_MOST_RUNS / max(sum(bent), 1))), _MOST_HALVINGS)
+    found = list[Piece]()
+    for piece, comes_apart in zip(pieces, bent, strict=True):
+        found += _thin(piece, halvings) if comes_apart and halvings > 0 else [piece]
+    return found
 
 
-def _runs(piece: Piece, few: int) -> list[Piece]:
-    """The straight runs of a piece; itself where it is filled, or has few faces."""
-    if piece.body is None or piece.hull_volume <= _SPARSE * piece.volume or piece.body.num_tri() <= few:
-        return [piece]
-    return _thin(piece)
+def _is_bent(piece: Piece, faces: int) -> bool:
+    """Whether a piece of more than so many faces fills little of its hull."""
+    if piece.body is None or piece.hull_volume <= _SPARSE * piece.volume:
+        return False
+    return int(piece.body.num_tri()) > faces
 
 
-@kept
-def _thin(piece: Piece) -> list[Piece]:
+def _thin(piece: Piece, halvings: int) -> list[Piece]:
     """The straight runs of a piece with a body; itself where it is none of several."""
     assert piece.body is not None
     mesh = piece.body.to_mesh64()
     vertices, faces = np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts).astype(np.int64)
     triangles = vertices[faces]
     depth = piece.volume / float(areas(triangles).sum())
-    found = straight_runs(triangles, depth)
+    found = _parted(triangles, areas(triangles), depth, halvings)
     return found if sum(run.hull_volume for run in found) <= _STRAIGHT * piece.volume else [piece]
 
 

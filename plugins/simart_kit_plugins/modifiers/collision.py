@@ -13,6 +13,7 @@ from pydantic import Field
 import simart_kit as sk
 from simart_kit.asset import ConvexMesh
 from simart_kit.carving import carved_apart
+from simart_kit.closing import MOST_PIECES
 from simart_kit.coarsening import coarsened
 from simart_kit.convex_decomposition import lacks
 from simart_kit.cutting import WORK
@@ -28,7 +29,9 @@ from simart_kit.wheels import wheels
 
 Shapes = dict[str, Decomposition]  # by name of the part
 _MOST_FACES = 60_000  # of a part that shapes are fitted to; finer ones are coarsened first
+_LEAST_PIECES = 32  # that even a part with few of the faces may come apart into
 _KEPT = 8  # so many times less than an equal share of the work is kept for each part that comes later
+_REFINING = 4  # of the work that there is for rebates where nothing is left of it
 _REBATES = 1.01  # how tight shapes have to be where parts overlap
 
 
@@ -83,7 +86,7 @@ class Collision(sk.Modifier):
             for index, part in enumerate(asset.parts)
             if part.name not in rolling
         }
-        made = rolling | self._made(surfaces, Budget().tight, options.tool_timeout)
+        made = rolling | self._made(surfaces, Budget().tight, WORK, options.tool_timeout)
         done = self._placed(asset, made)
         found: Sequence[Overlap] = overlaps(done)
         if found and options.mode == "auto":
@@ -109,14 +112,16 @@ class Collision(sk.Modifier):
     ) -> tuple[Shapes, sk.Asset, Sequence[Overlap]]:
         """What is known, or tighter shapes where parts overlap, if these overlap less: rebates are small.
 
-        A part that has as many shapes as it may keeps them: finer ones would be put together again.
+        A part keeps its shapes if it has as many as it may, as finer ones would be put together again, and if
+        some are the tool's, which knows no rebates.
         """
         names = {name for overlap in found for name in (overlap.one, overlap.other)}
-        left = self.options.tool_timeout - sum(m.tool_seconds for m in made.values())
-        coarse = {n: surface for n, surface in surfaces.items() if n in names and not made[n].crowded}
+        done_with = {name for name, m in made.items() if m.crowded or m.tool_seconds}
+        coarse = {n: surface for n, surface in surfaces.items() if n in names - done_with}
         if not coarse:
             return made, done, found
-        finer = made | self._made(coarse, _REBATES, max(left, 0.0))
+        work = max(WORK - sum(m.work for m in made.values()), WORK // _REFINING)
+        finer = made | self._made(coarse, _REBATES, work, seconds=0.0)
         tried = self._placed(asset, finer)
         remaining = overlaps(tried)
         if sum(o.depth for o in remaining) < sum(o.depth for o in found):
@@ -129,11 +134,11 @@ class Collision(sk.Modifier):
         margin = self.options.margin
         return separated(asset.with_parts(changed), margin) if margin else asset.with_parts(changed)
 
-    def _made(self, surfaces: Mapping[str, Surface], tight: float, seconds: float) -> Shapes:
+    def _made(self, surfaces: Mapping[str, Surface], tight: float, work: int, seconds: float) -> Shapes:
         """Shapes of some parts, the largest last. Each may take nearly all that is left of work and time."""
         options, made = self.options, {}
         order = sorted(surfaces, key=lambda name: len(surfaces[name].faces))
-        work, kept = WORK, WORK // (_KEPT * len(order))
+        kept = work // (_KEPT * len(order))
         for done, name in enumerate(order):
             share = max(work - kept * (len(order) - done - 1), kept)
             budget = Budget(options.max_shapes, options.max_vertices, tight, share, options.tool, seconds)
@@ -159,9 +164,10 @@ class Collision(sk.Modifier):
 
 
 def _surface(asset: sk.Asset, index: int) -> Surface:
-    """The surface of a part, coarsened where it is very fine."""
-    mesh = asset.mesh
-    return Surface(*coarsened(mesh.vertices, mesh.faces[asset.face_part == index], _MOST_FACES))
+    """The surface of a part, coarsened where it is very fine, in pieces by its share of the faces."""
+    faces = asset.mesh.faces[asset.face_part == index]
+    most = max(MOST_PIECES * len(faces) // len(asset.mesh.faces), _LEAST_PIECES)
+    return Surface(*coarsened(asset.mesh.vertices, faces, _MOST_FACES), most)
 
 
 def _counts(mode: str, asset: sk.Asset) -> str:
