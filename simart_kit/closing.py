@@ -25,7 +25,7 @@ MOST_PIECES = 1024
 
 _THIN_WALLED = 0.5  # of its hull: a capped solid below this has walls, and is not a filled box
 _LID = 0.1  # of its area that caps may have for a solid to be closed at all
-_BOARD, _SLENDERNESS = 0.01, 0.1  # [m], and of the square root of its area: what a sheet stands for at most
+_BOARD, _SLENDERNESS = 0.01, 0.015  # [m], and of the square root of its area: what a sheet stands for at most
 _LENS = 1.5  # times the board that an open shell stands for: a hull below this is what the shell is
 
 

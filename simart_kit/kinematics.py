@@ -18,6 +18,9 @@ Positions = Mapping[str, float | Sequence[float]]
 """Joint positions by name: an angle [rad] or travel [m]; (3,) rotation vector [rad] of a ball joint;
 (6,) translation [m] then rotation vector [rad] of a free one. Joints left out stay at 0."""
 
+LEAST_TRAVEL = 1e-4
+"""What moves less is no movement [rad | m]; small buttons go tenths of a millimetre."""
+
 
 def ordered_joints(asset: Asset) -> tuple[Joint, ...]:
     """The joints, each after the one that moves its parent; siblings in the asset's order."""

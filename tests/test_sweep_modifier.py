@@ -128,7 +128,15 @@ class TestStuck:
 def test_a_joint_that_was_given_no_way_is_held_fixed() -> None:
     result = Sweep().modify(assembled(slide(0, 0), [DOOR], [POST]))
     assert result.joint("slide").kind == "fixed"
-    assert "sweep: prismatic blocked after 0.000 m" in result.joint("slide").flags[0]
+    assert "sweep: prismatic blocked after 0 mm" in result.joint("slide").flags[0]
+
+
+def test_a_way_of_less_than_a_tenth_of_a_millimetre_is_none() -> None:
+    little, none = (assembled(slide(0, way), [DOOR], [POST]) for way in (2e-4, 5e-5))
+    assert Sweep().modify(little).joint("slide").kind == "prismatic"
+    result = Sweep().modify(none).joint("slide")
+    assert result.kind == "fixed"
+    assert "blocked after 0.05 mm of 0 mm .. 0.05 mm" in result.flags[0]
 
 
 def test_what_a_part_carries_meets_walls_for_it() -> None:

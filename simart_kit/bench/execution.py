@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from ..arrays import FloatArray
+from ..kinematics import LEAST_TRAVEL
 from .mujoco_driving import REACHED, Driver, one_axis_joints, rest_positions
 from .mujoco_loading import LoadError, load_model, one_line, quiet_mujoco
 
@@ -28,7 +29,6 @@ TRAVEL_SECONDS = 1.0
 MOST_JOINTS = 64
 """Of more joints than these, as many are driven, evenly chosen."""
 _TIMESTEP = 0.0005, 0.002  # [s]; that of the file, within these
-_LEAST_RANGE = 1e-4  # [rad | m]: less is no movement; small buttons go tenths of a millimetre
 _CALM = 0.5  # speed of joints in the end [rad/s | m/s]
 _OVER = 0.02, 0.001  # how far a joint may stand over a limit: of its range, and [rad | m]
 
@@ -181,7 +181,7 @@ def _travel(
 ) -> JointTravel:
     name, kind = _name(model, joint), _kind(model, joint)
     lower, upper = _range(model, joint)
-    if not upper - lower >= _LEAST_RANGE:
+    if not upper - lower >= LEAST_TRAVEL:
         stated = tuple(float(value) for value in model.jnt_range[joint])
         fault = f"has no travel: its limits are {stated[0]:.3g} .. {stated[1]:.3g}"
         return JointTravel(name, kind, False, False, 0.0, fault)

@@ -3,16 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence, Set
+from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from simart_kit.arrays import BoolArray, FloatArray, IntArray
 from simart_kit.bounds import triangle_bounds
 
 from .scene import Scene
 
+T = TypeVar("T", bound=np.generic)
 _MOST_POINTS, _MOST_TRIANGLES = 300, 4000
 _CHUNK = 1 << 16
+
+
+@dataclass(frozen=True, eq=False)
+class _Surface:
+    """A piece's (F, 3, 3) triangles, their corners and middles, and the (F, 3) corners of their boxes."""
+
+    triangles: FloatArray
+    points: FloatArray
+    lower: FloatArray
+    upper: FloatArray
 
 
 class Contacts:
@@ -30,39 +44,58 @@ class Contacts:
         counts = np.bincount(scene.labels, minlength=scene.count)
         self._faces = np.split(order, np.cumsum(counts)[:-1])
         self._known: dict[tuple[int, int], float] = {}
+        self._surfaces: dict[int, _Surface] = {}
+        self._told: dict[tuple[int, int, float], bool] = {}
 
     def gap(self, a: int, b: int) -> float:
         """Smallest distance between two pieces, infinite beyond reach."""
         key = (min(a, b), max(a, b))
         if key not in self._known:
-            near = self._scene.boxes[a].overlap(self._scene.boxes[b], self._reach)
-            self._known[key] = min(self._one_way(a, b), self._one_way(b, a)) if near else np.inf
+            ways = (self._one_way(*pair, self._reach) for pair in (key, key[::-1]))
+            self._known[key] = min(ways) if self._beside(*key, self._reach) else np.inf
         return self._known[key]
+
+    def within(self, a: int, b: int, distance: float) -> bool:
+        """Whether two pieces come as near as that; many times as fast as `gap` where it is little."""
+        key = (min(a, b), max(a, b), distance)
+        if key[:2] in self._known:
+            return self._known[key[:2]] <= distance
+        if key not in self._told:
+            ways = (self._one_way(*pair, distance) for pair in (key[:2], key[1::-1]))
+            self._told[key] = self._beside(*key) and any(way <= distance for way in ways)
+        return self._told[key]
 
     def touching(self, piece: int, gap: float) -> list[int]:
         """Other pieces within `gap`."""
-        return [
-            other for other in range(self._scene.count) if other != piece and self.gap(piece, other) <= gap
-        ]
+        return [i for i in range(self._scene.count) if i != piece and self.within(piece, i, gap)]
 
-    def _one_way(self, a: int, b: int) -> float:
+    def _beside(self, a: int, b: int, reach: float) -> bool:
+        return self._scene.boxes[a].overlap(self._scene.boxes[b], reach)
+
+    def _one_way(self, a: int, b: int, reach: float) -> float:
         """Points of a against triangles of b, both only where the other's box is near."""
-        corners = self._scene.triangles[self._faces[a]]
-        points = np.concatenate([corners.reshape(-1, 3), corners.sum(axis=1) / 3])
-        points = _spread(points[self._near(b, points, points)], _MOST_POINTS)
-        triangles = self._scene.triangles[self._faces[b]]
-        triangles = _spread(triangles[self._near(a, *triangle_bounds(triangles))], _MOST_TRIANGLES)
+        points, piece = self._surface(a).points, self._surface(b)
+        points = _spread(points[self._near(b, points, points, reach)], _MOST_POINTS)
+        near = np.flatnonzero(self._near(a, piece.lower, piece.upper, reach))
+        triangles = piece.triangles[_spread(near, _MOST_TRIANGLES)]
         if not len(points) or not len(triangles):
             return np.inf
-        nearest = smallest_distance(points, triangles, self._reach)
-        return nearest if nearest <= self._reach else np.inf
+        nearest = smallest_distance(points, triangles, reach)
+        return nearest if nearest <= reach else np.inf
 
-    def _near(self, piece: int, lower: FloatArray, upper: FloatArray) -> BoolArray:
+    def _surface(self, piece: int) -> _Surface:
+        if piece not in self._surfaces:
+            triangles = self._scene.triangles[self._faces[piece]]
+            points = np.concatenate([triangles.reshape(-1, 3), triangles.sum(axis=1) / 3])
+            self._surfaces[piece] = _Surface(triangles, points, *triangle_bounds(triangles))
+        return self._surfaces[piece]
+
+    def _near(self, piece: int, lower: FloatArray, upper: FloatArray, reach: float) -> BoolArray:
         """(N,) which boxes, of corners (N, 3), come within reach of a piece's own."""
         box, near = self._scene.boxes[piece], np.ones(len(lower), dtype=np.bool_)
         for axis in range(3):
-            near &= lower[:, axis] <= box.upper[axis] + self._reach
-            near &= upper[:, axis] >= box.lower[axis] - self._reach
+            near &= lower[:, axis] <= box.upper[axis] + reach
+            near &= upper[:, axis] >= box.lower[axis] - reach
         return near
 
 
@@ -150,7 +183,7 @@ def _cross(one: FloatArray, other: FloatArray) -> FloatArray:
     return np.stack([y * w - z * v, z * u - x * w, x * v - y * u])
 
 
-def _spread(values: FloatArray, most: int) -> FloatArray:
+def _spread(values: NDArray[T], most: int) -> NDArray[T]:
     """At most so many rows, evenly taken."""
     if len(values) <= most:
         return values

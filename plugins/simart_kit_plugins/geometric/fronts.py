@@ -144,7 +144,7 @@ def _front(
         boxed=boxed,
         hollow=_hollow(scene, axes, box, piece),
         flat=flat,
-        loose=all(contacts.gap(piece, i) > LOOSE for i in range(len(boxes)) if i not in own),
+        loose=not any(contacts.within(piece, i, LOOSE) for i in range(len(boxes)) if i not in own),
         share=float(np.prod(box.size[:2]) / np.prod(whole.size[:2])),
         tall=float(box.size[1] / whole.size[1]),
         handles_middle=np.mean([boxes[i].center for i in handles or (piece,)], axis=0),
@@ -251,7 +251,7 @@ def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int
         on.update(i for i in found if meet(contacts, boxes, i, piece))
 
     def joined(i: int, j: int) -> bool:
-        return contacts.gap(i, j) <= TOUCH or (j in found and meet(contacts, boxes, i, j))
+        return contacts.within(i, j, TOUCH) or (j in found and meet(contacts, boxes, i, j))
 
     on = hanging_on(on, found, joined)
     return tuple(i for i in found if i in on)
@@ -264,7 +264,7 @@ def _grips(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int, 
     if covered > _GRIPS * np.prod(boxes[piece].size[:2]):
         return ()
     others = [i for i in range(len(boxes)) if i not in (piece, *inlays, *handles)]
-    return tuple(i for i in handles if all(contacts.gap(i, j) > HOLDS for j in others))
+    return tuple(i for i in handles if not any(contacts.within(i, j, HOLDS) for j in others))
 
 
 def _glazing_bar(box: Box, panel: Box) -> bool:
@@ -275,7 +275,7 @@ def _glazing_bar(box: Box, panel: Box) -> bool:
 
 def meet(contacts: Contacts, boxes: Sequence[Box], one: int, other: int) -> bool:
     """Whether two pieces touch, or one is stuck into the other so deep that no corner is near its skin."""
-    return boxes[one].overlap(boxes[other], -TOUCH) or contacts.gap(one, other) <= TOUCH
+    return boxes[one].overlap(boxes[other], -TOUCH) or contacts.within(one, other, TOUCH)
 
 
 def _behind(contacts: Contacts, boxes: list[Box], piece: int, front: tuple[int, ...]) -> tuple[int, ...]:
@@ -289,7 +289,7 @@ def _behind(contacts: Contacts, boxes: list[Box], piece: int, front: tuple[int, 
     own = {piece, *front, *inside}
 
     def joined(i: int, j: int) -> bool:
-        return contacts.gap(i, j) <= HANGS and not _held(contacts, boxes, i, own)
+        return contacts.within(i, j, HANGS) and not _held(contacts, boxes, i, own)
 
     hanging = hanging_on({piece}, inside, joined)
     return tuple(i for i in inside if i in hanging)
@@ -303,7 +303,7 @@ def _held(contacts: Contacts, boxes: list[Box], piece: int, own: set[int]) -> bo
         for i, other in enumerate(boxes)
         if i not in own
         and other.lower[1] < box.center[1] < other.upper[1]
-        and contacts.gap(piece, i) <= HOLDS
+        and contacts.within(piece, i, HOLDS)
     ]
     left = any(boxes[i].lower[0] <= box.lower[0] + TOUCH for i in holders)
     right = any(boxes[i].upper[0] >= box.upper[0] - TOUCH for i in holders)

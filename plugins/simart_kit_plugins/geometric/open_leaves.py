@@ -218,7 +218,7 @@ def _mates(scene: Scene, contacts: Contacts, piece: int, taken: Set[int]) -> lis
         and (box.lower >= panel.lower - 0.05).all()
         and (box.upper <= panel.upper + 0.05).all()
     ]
-    on = hanging_on({piece}, near, lambda i, j: contacts.gap(i, j) <= TOUCH)
+    on = hanging_on({piece}, near, lambda i, j: contacts.within(i, j, TOUCH))
     return [i for i in near if i in on]
 
 

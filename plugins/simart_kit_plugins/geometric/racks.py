@@ -82,9 +82,9 @@ def _clusters(scene: Scene, contacts: Contacts, pieces: list[int], shell: int) -
     thin = np.sort(upper - lower, axis=1)[:, 1] < _THIN
     welded = near & thin & thin[:, None]
     for i, j in np.argwhere(np.triu(near & ~welded, 1)):
-        welded[i, j] = welded[j, i] = contacts.gap(pieces[i], pieces[j]) <= _TOUCHES
+        welded[i, j] = welded[j, i] = contacts.within(pieces[i], pieces[j], _TOUCHES)
     held = np.array(
-        [bool(w) and contacts.gap(i, shell) <= _TOUCHES for i, w in zip(pieces, wide, strict=True)]
+        [bool(w) and contacts.within(i, shell, _TOUCHES) for i, w in zip(pieces, wide, strict=True)]
     )
     _, group = connected_components(welded & ~held & ~held[:, None], directed=False)
     clusters = [np.flatnonzero((group == one) & ~held) for one in np.unique(group)]

@@ -67,11 +67,12 @@ def _alike(scene: Scene, taken: Set[int]) -> list[list[_Blade]]:
     begins = np.append(np.flatnonzero(np.diff(sides, prepend=-1.0) > _ALIKE * sides), len(free))
     groups: list[list[_Blade]] = []
     for start, end in pairwise(begins):
-        left = [_blade(scene, piece) for piece in free[start:end]] if end - start >= 3 else []
-        while left:
-            alike = [b for b in left if np.allclose(b.measures, left[0].measures, rtol=_ALIKE, atol=1e-6)]
-            left = [b for b in left if b not in alike]
-            groups += [alike] if 3 <= len(alike) <= _MOST else []
+        blades = [_blade(scene, piece) for piece in free[start:end]] if end - start >= 3 else []
+        left, measures = np.arange(len(blades)), np.array([blade.measures for blade in blades])
+        while len(left):
+            alike = np.isclose(measures[left], measures[left[0]], rtol=_ALIKE, atol=1e-6).all(axis=1)
+            groups += [[blades[i] for i in left[alike]]] if 3 <= alike.sum() <= _MOST else []
+            left = left[~alike]
     return groups
 
 

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from simart_kit import Asset, Joint
     from simart_kit.hookspecs import Register
 
+_FEW = 0.01  # [m]: ways that are shorter are told in millimetres
+
 
 class Sweep(Modifier):
     """Shortens limits to what is free, so that no part goes through another; holds fixed what is stuck.
@@ -48,6 +50,7 @@ class Sweep(Modifier):
     def modify(self, asset: Asset) -> Asset:
         """The asset with limits that surfaces allow; notes tell each change, warnings each stuck joint."""
         from simart_kit.clearing import held
+        from simart_kit.kinematics import LEAST_TRAVEL
         from simart_kit.waiting import free_ranges, sunk
 
         changed: dict[str, Joint] = {}
@@ -58,14 +61,18 @@ class Sweep(Modifier):
             wanted = joint.limits.upper - joint.limits.lower
             before = _range(joint, joint.limits.lower, joint.limits.upper)
             short = replace(joint, limits=simart_kit.Limits(free.lower, free.upper))
-            stops = free.travel < self.options.least * wanted or wanted == 0
-            pressed = sunk(asset, joint, self.options.steps, self.seed) if stops and wanted else None
+            stops = free.travel < max(self.options.least * wanted, LEAST_TRAVEL)
+            pressed = (
+                sunk(asset, joint, self.options.steps, self.seed)
+                if stops and wanted >= LEAST_TRAVEL
+                else None
+            )
             if pressed is not None:
                 changed[name] = pressed
                 told.append(_sunk(joint, pressed))
                 continue
             if stops:
-                blocked = f"blocked after {_amount(joint, max(free.upper, -free.lower))} of {before}"
+                blocked = f"blocked after {_amount(joint, max(free.upper, -free.lower), wanted)} of {before}"
                 fixes = self.options.stuck == "fix"
                 flag = f"sweep: {joint.kind} {blocked}"
                 changed[name] = held(joint, flag) if fixes else replace(short, flags=(*joint.flags, flag))
@@ -95,11 +102,15 @@ def _sunk(joint: Joint, pressed: Joint) -> str:
 
 
 def _range(joint: Joint, lower: float, upper: float) -> str:
-    return f"{_amount(joint, lower)} .. {_amount(joint, upper)}"
+    far = max(abs(lower), abs(upper))
+    return f"{_amount(joint, lower, far)} .. {_amount(joint, upper, far)}"
 
 
-def _amount(joint: Joint, position: float) -> str:
-    return f"{np.degrees(position):.0f} degrees" if joint.turns else f"{position:.3f} m"
+def _amount(joint: Joint, position: float, far: float) -> str:
+    """A position in words, in millimetres if none that is told with it is `far`."""
+    if joint.turns:
+        return f"{np.degrees(position):.0f} degrees"
+    return f"{position:.3f} m" if far >= _FEW else f"{1000 * position:.2g} mm"
 
 
 @hookimpl

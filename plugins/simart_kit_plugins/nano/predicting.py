@@ -17,7 +17,7 @@ from .cloud import Cloud
 from .evidence import COUNT
 from .grouping import Group, groups, piece_parts
 from .part_lines import part_lines
-from .siblings import shared_certainty
+from .siblings import nearest_carriers, shared_certainty
 from .voting import Said, SaidParts, say, say_parts
 
 # From how many sides an object is looked at.
@@ -151,14 +151,17 @@ def _parts(
         count = len(line.found)
         numbers[row, :count], real[row, :count] = line.evidence(), True
     parts = say_parts(network, said.tokens, share, numbers, real)
-    carrier = _carriers(parts.carrier)
     each = [
-        _part(network, said, parts, row, group, line.found, carrier[row])
+        _part(network, said, parts, row, group, line.found)
         for row, (group, line) in enumerate(zip(found, lines, strict=True))
     ]
-    alone = np.array([part.certainty for part in each])
-    shared = shared_certainty(cloud, [part.pieces for part in each], alone)
-    return tuple(replace(part, certainty=float(sure)) for part, sure in zip(each, shared, strict=True))
+    pieces, takes = [part.pieces for part in each], [(part.label, part.kind) for part in each]
+    carriers = _without_loops(nearest_carriers(cloud, pieces, takes, parts.carrier))
+    shared = shared_certainty(cloud, pieces, np.array([part.certainty for part in each]))
+    return tuple(
+        replace(part, parent=above, certainty=float(sure))
+        for part, above, sure in zip(each, carriers, shared, strict=True)
+    )
 
 
 def _votes(cloud: Cloud, wished: int) -> int:
@@ -169,9 +172,9 @@ def _areas(cloud: Cloud) -> FloatArray:
     return np.asarray(np.bincount(cloud.piece, cloud.area, cloud.count), dtype=np.float64)
 
 
-def _carriers(chance: FloatArray) -> list[int]:
-    """Of each part, the number of the part that carries it, or 0; without loops."""
-    chosen = [int(above) for above in chance.argmax(axis=1)]
+def _without_loops(carriers: Sequence[int]) -> list[int]:
+    """Of each part, the number of the part that carries it; 0, the body, where it would carry itself."""
+    chosen = list(carriers)
     for part in range(1, len(chosen) + 1):
         seen, above = {part}, chosen[part - 1]
         while above and above not in seen:
@@ -189,7 +192,6 @@ def _part(
     row: int,
     group: Group,
     own: Candidates,
-    parent: int,
 ) -> PredictedPart:
     count = len(own)
     choices = Choices(parts.kind[row], parts.right[row, :count], parts.travel[row, :count], own)
@@ -204,7 +206,7 @@ def _part(
         best.origin,
         best.lower,
         best.upper,
-        parent,
+        0,
         best.confidence,
         group.score * best.confidence,
         choices,
