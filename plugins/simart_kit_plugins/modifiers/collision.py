@@ -31,7 +31,6 @@ Shapes = dict[str, Decomposition]  # by name of the part
 _MOST_FACES = 60_000  # of a part that shapes are fitted to; finer ones are coarsened first
 _LEAST_PIECES = 32  # that even a part with few of the faces may come apart into
 _KEPT = 8  # so many times less than an equal share of the work is kept for each part that comes later
-_REFINING = 4  # of the work that there is for rebates where nothing is left of it
 _REBATES = 1.01  # how tight shapes have to be where parts overlap
 
 
@@ -118,9 +117,9 @@ class Collision(sk.Modifier):
         names = {name for overlap in found for name in (overlap.one, overlap.other)}
         done_with = {name for name, m in made.items() if m.crowded or m.tool_seconds}
         coarse = {n: surface for n, surface in surfaces.items() if n in names - done_with}
-        if not coarse:
+        work = WORK - sum(m.work for m in made.values())
+        if not coarse or work <= 0:
             return made, done, found
-        work = max(WORK - sum(m.work for m in made.values()), WORK // _REFINING)
         finer = made | self._made(coarse, _REBATES, work, seconds=0.0)
         tried = self._placed(asset, finer)
         remaining = overlaps(tried)
