@@ -13,10 +13,10 @@ BUTTON = ((0.4, -0.04, 0.4), (0.5, 0.0, 0.5))  # before the front, at -y
 DRAWER = ((0.1, -0.02, 0.1), (0.9, 0.8, 0.3))
 
 
-def limits_of(box, kind, axis, limits):
+def limits_of(box, kind, axis, limits, label=""):
     mesh = boxes_mesh([BODY, box])
     joint = sk.Joint("j", kind, "body", "part", (0, 0, 0), axis, limits and sk.Limits(*limits))
-    proposal = Proposal(np.arange(24) >= 12, sk.PartGuess("part"), joint, None)
+    proposal = Proposal(np.arange(24) >= 12, sk.PartGuess("part", label=label), joint, None)
     (found,) = with_travel(mesh, [proposal])
     return found.joint.limits and (found.joint.limits.lower, found.joint.limits.upper)
 
@@ -29,6 +29,16 @@ def test_a_small_thing_is_pressed_in_by_half_its_depth(y, expected):
 @pytest.mark.parametrize(("y", "expected"), [(1, (-0.41, 0.0)), (-1, (0.0, 0.41))])
 def test_a_large_thing_is_pulled_out_by_half_its_depth(y, expected):
     assert limits_of(DRAWER, "prismatic", (0, y, 0), (0.0, 0.01)) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(("y", "expected"), [(1, (0.0, 0.008)), (-1, (-0.008, 0.0))])
+@pytest.mark.parametrize("limits", [(-0.003, 0.008), (-0.008, 0.0), (0.0, 0.008)])
+def test_a_button_goes_in_and_not_out(y, expected, limits):
+    assert limits_of(BUTTON, "prismatic", (0, y, 0), limits, "button") == pytest.approx(expected)
+
+
+def test_what_is_called_a_button_and_is_large_goes_where_it_goes():
+    assert limits_of(DRAWER, "prismatic", (0, 1, 0), (-0.3, 0.1), "button") == (-0.3, 0.1)
 
 
 def test_what_does_not_turn_turns_by_a_quarter():
