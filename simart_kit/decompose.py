@@ -224,10 +224,8 @@ def _visible(pieces: Sequence[Piece], tight: float) -> list[Piece]:
             continue
         normals = unit_normals(hull.vertices[hull.faces])
         ends = np.einsum("fi,fi->f", normals, hull.vertices[hull.faces[:, 0]]) + _INSIDE
-        within = (lower >= lower[holder] - _INSIDE).all(axis=1) & (upper <= upper[holder] + _INSIDE).all(
-            axis=1
-        )
-        for i in np.flatnonzero(within & ~hidden & (size <= size[holder])).tolist():
+        inside = (lower >= lower[holder] - _INSIDE) & (upper <= upper[holder] + _INSIDE)
+        for i in np.flatnonzero(inside.all(axis=1) & ~hidden & (size <= size[holder])).tolist():
             if i != holder and (pieces[i].points @ normals.T <= ends).all():
                 hidden[i] = True
     return [piece for piece, skipped in zip(pieces, hidden, strict=True) if not skipped]

@@ -62,11 +62,8 @@ class Sweep(Modifier):
             before = _range(joint, joint.limits.lower, joint.limits.upper)
             short = replace(joint, limits=simart_kit.Limits(free.lower, free.upper))
             stops = free.travel < max(self.options.least * wanted, LEAST_TRAVEL)
-            pressed = (
-                sunk(asset, joint, self.options.steps, self.seed)
-                if stops and wanted >= LEAST_TRAVEL
-                else None
-            )
+            sinks = stops and wanted >= LEAST_TRAVEL
+            pressed = sunk(asset, joint, self.options.steps, self.seed) if sinks else None
             if pressed is not None:
                 changed[name] = pressed
                 told.append(_sunk(joint, pressed))
