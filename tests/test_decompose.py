@@ -140,6 +140,17 @@ class TestOpenSurfaces:
         assert sorted(np.ptp(shape.vertices, axis=0)) == pytest.approx([SHEET, 0.3, 0.4])
 
 
+def test_a_small_open_cap_is_hollow_and_a_bulged_sheet_of_its_size_is_not() -> None:
+    vertices, faces = box((0.0, 0.0, 0.0), (0.03, 0.04, 0.03))
+    open_end = faces[~(vertices[faces][:, :, 1] == 0.04).all(axis=1)]
+    cap = decompose(vertices, open_end, CUTS_ONLY).shapes
+    assert len(cap) == 5
+    assert not inside(cap, (0.015, 0.02, 0.015))
+    bulged = np.array([[0, 0, 0], [0.02, 0, 0], [0.02, 0.02, 0], [0, 0.02, 0], [0.01, 0.01, 0.0005]])
+    fan = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+    assert len(decompose(bulged, fan, CUTS_ONLY).shapes) == 1
+
+
 def test_pieces_hidden_in_others_cost_nothing() -> None:
     mesh = boxes_mesh(
         [((0, 0, 0), (1, 0.1, 1)), ((0.1, 0.02, 0.1), (0.9, 0.08, 0.9)), ((3, 0, 0), (3.1, 1, 1))]
