@@ -117,3 +117,34 @@ class TestFronts:
 
     def test_a_disc_without_a_collar_stays(self) -> None:
         assert not found(with_discs(BLOCK, [(0.0, -0.31, 0.6)], 0.025, 0.05, 1)).joints
+
+
+def over_ring(cap: float, hole: float, deep: float) -> Mesh:
+    """A round table, a metre wide, with a raised ring around a hole, and a disc of a radius on the ring."""
+    top = 0.4 + 0.025
+    wall = max(hole, cap) + 0.01
+    outside = [(0, 0), (0.5, 0), (0.5, 0.4), (wall, 0.4), (wall, top)]
+    profile = [*outside, (hole, top), (hole, top - deep), (0, top - deep)]
+    table = trimesh.creation.revolve(profile, sections=32)
+    disc = trimesh.creation.cylinder(cap, 0.03, sections=32)
+    disc.apply_translation((0.0, 0.0, top + 0.015))
+    return joined(*(Mesh(np.asarray(one.vertices), np.asarray(one.faces)) for one in (table, disc)))
+
+
+class TestOverHoles:
+    @pytest.mark.parametrize("hole", [0.037, 0.043])
+    def test_a_small_cap_over_a_hole_in_the_body_is_pressed(self, hole: float) -> None:
+        result = found(over_ring(0.04, hole, 0.025))
+        assert result.kinds == {"button": "prismatic"}
+        np.testing.assert_allclose(result.joint("button").axis, (0, 0, -1), atol=1e-6)
+
+    @pytest.mark.parametrize(
+        ("cap", "hole", "deep"),
+        [
+            (0.04, 0.037, 0.2),  # the stopper of a vessel
+            (0.09, 0.085, 0.05),  # too wide for a hand
+            (0.04, 0.02, 0.025),  # a disc on a ring
+        ],
+    )
+    def test_other_discs_over_holes_stay(self, cap: float, hole: float, deep: float) -> None:
+        assert not found(over_ring(cap, hole, deep)).joints

@@ -38,6 +38,7 @@ from .rotors import ROTORS, about_symmetry
 from .rounds import round_axis
 from .sashes import SASHES, sliding
 from .scene import Box, Scene, make_scene
+from .spray_arms import SPRAY_ARMS, whirling
 from .views import View, view_part
 
 if TYPE_CHECKING:
@@ -138,6 +139,7 @@ _SPECIAL: tuple[tuple[tuple[str, ...], Callable[[Scene, View], Choice | None]], 
     (LEVERS, levering),
     (ROTORS, about_symmetry),
     (SASHES, sliding),
+    (SPRAY_ARMS, whirling),
     (("knob",), turned),
     (SPINNING, _spinning),
     (("button", "touchpad", "squeeze"), pressed),

@@ -19,8 +19,9 @@ from .naming import names
 from .open_leaves import open_leaves
 from .racks import racks
 from .rotors import rotors
-from .rounds import collared, knobs, wheels
+from .rounds import collared, knobs, over_holes, wheels
 from .scene import Scene, make_scene
+from .spray_arms import spray_arms
 
 if TYPE_CHECKING:
     from simart_kit import Mesh
@@ -32,7 +33,7 @@ Finder = Callable[[Scene, Contacts, Set[int]], list[Mover]]
 """Finds movers among the pieces that are not taken yet."""
 
 # After the fronts; each has what those before it left.
-_FINDERS: tuple[Finder, ...] = (rotors, open_leaves, racks, wheels, knobs, collared)
+_FINDERS: tuple[Finder, ...] = (rotors, open_leaves, spray_arms, racks, wheels, knobs, collared, over_holes)
 
 
 def parts_of(mesh: Mesh, spec: Spec | None, max_parts: int, crease: float, node_hint: bool) -> Segmentation:

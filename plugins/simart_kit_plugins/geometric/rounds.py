@@ -11,13 +11,20 @@ from simart_kit.arrays import FloatArray
 from .caps import measure_cap, stacked_on
 from .contact import Contacts
 from .movers import Mover
-from .scene import Scene
+from .scene import Box, Scene
 
 _ROUND = 0.03  # how far within the radius a corner still lies on the rim, as a share of it
 _LARGEST_GAP = np.deg2rad(50.0)  # between corners of the rim: an octagon is a coarse wheel, a hexagon a nut
 _TOGETHER = 4.0  # diameters from one knob to the next at most: those of drawers are farther apart
 _CONCENTRIC = 0.05  # of its width, how far a cap's middle is from its collar's at most
 _BUTTON = (0.008, 0.08)  # [m] width of a round button
+_MUSHROOM = 0.12  # [m] the same of one over a hole in the body: for a whole hand
+_SMALL = 0.1  # of the object's diagonal, such a one: the lid of a jar or a pot is wider
+_HOLE = (0.85, 1.3)  # radius of that hole, in radii of the cap over it
+_DEPTH = (0.1, 1.0)  # its depth, in widths of the cap: bottles are deeper
+_FRONT, _UP = np.array([0.0, -1.0, 0.0]), np.array([0.0, 0.0, 1.0])
+_NEAR = 1e-5  # a ray starts so far off a cap
+_WAYS = 16  # in which the walls of a hole are felt
 
 
 def round_axis(points: FloatArray) -> int | None:
@@ -108,6 +115,39 @@ def collared(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
         if any(_is_collar(scene, int(other), int(piece)) for other in near):
             movers.append(Mover((int(piece),), "button", 0.6, reason))
     return movers
+
+
+def over_holes(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
+    """Plain round caps over a hole in the body, to the front or upward: buttons, which go down in it."""
+    body = int(scene.areas.argmax())
+    reason = ("a small round cap over a hole in the body",)
+    movers = []
+    for piece, box in enumerate(scene.boxes):
+        wide = float(box.size.max())
+        able = wide < _SMALL and _BUTTON[0] < wide * scene.size < _MUSHROOM
+        if piece in taken or piece == body or not able:
+            continue
+        axis = round_axis(scene.points_of(piece))
+        if any(_covers_hole(scene, box, way, body) for way in (_FRONT, _UP) if axis in np.flatnonzero(way)):
+            movers.append(Mover((piece,), "button", 0.6, reason))
+    return movers
+
+
+def _covers_hole(scene: Scene, cap: Box, outward: FloatArray, body: int) -> bool:
+    """Whether the body leaves room behind a round cap, between walls about as far apart as it is wide."""
+    across = np.eye(3)[np.abs(outward) < 0.5]
+    radius, thick = float((across @ cap.size).max()) / 2, float(np.abs(outward) @ cap.size)
+    foot = cap.center - (thick / 2 + _NEAR) * outward
+    floor, deep = scene.rays.first(foot[None], -outward)
+    if floor[0] < 0 or scene.labels[floor[0]] != body or not _DEPTH[0] < deep[0] / (2 * radius) < _DEPTH[1]:
+        return False
+    angles = 2 * np.pi * np.arange(_WAYS) / _WAYS
+    start = foot - deep[0] / 2 * outward
+    for way in np.column_stack([np.cos(angles), np.sin(angles)]) @ across:
+        wall, off = scene.rays.first(start[None], way)
+        if not _HOLE[0] * radius < off[0] < _HOLE[1] * radius or scene.labels[wall[0]] != body:
+            return False
+    return True
 
 
 def _is_collar(scene: Scene, other: int, piece: int) -> bool:
