@@ -27,6 +27,16 @@ def leaf(x: tuple[float, float], y: tuple[float, float] = (-0.02, 0.02)) -> Box:
     return box(x, y, (0.055, 1.945))
 
 
+def feet(x: float) -> list[Box]:
+    """What holds a handle at a height of 1 m, before and behind a leaf."""
+    return [box((x - 0.01, x + 0.01), y, (0.99, 1.01)) for y in ((-0.05, -0.02), (0.02, 0.05))]
+
+
+def arms(x: tuple[float, float]) -> list[Box]:
+    """Level bars that stand off a leaf on both sides, at a height of 1 m."""
+    return [box(x, y, (0.99, 1.01)) for y in ((-0.065, -0.05), (0.05, 0.065))]
+
+
 def rod(radius: float, height: float, along: str, center: tuple[float, float, float]) -> Mesh:
     turn = np.eye(4)
     if along == "y":
@@ -97,3 +107,19 @@ class TestLines:
         posts = [rod(0.05, 2.0, "z", (x, 0, 1)) for x in (-0.56, 0.56)]
         knob = rod(0.02, 0.08, "y", (-0.42, -0.06, 1))
         assert found(joined(boxes_mesh([leaf((-0.5, 0.5))]), *posts, knob)).kinds == {"door": "revolute"}
+
+    def test_levers_before_and_behind_a_leaf_turn_together(self) -> None:
+        result = found([*FRAME, leaf((-0.595, 0.595)), *feet(-0.54), *arms((-0.55, -0.43))])
+        assert result.kinds == {"door": "revolute", "lever": "revolute"}
+        assert_hinge(result.joint("door"), (0.595, -0.02, 0), "z")
+        assert_hinge(result.joint("lever"), (-0.54, 0, 1), "y")
+        assert result.joint("lever").parent == "door"
+        assert len(result.faces("lever")) == 4 * 12
+
+    def test_handles_that_are_held_at_both_ends_stay_with_their_leaf(self) -> None:
+        handles = [*feet(-0.54), *feet(-0.44), *arms((-0.55, -0.43))]
+        assert found([*FRAME, leaf((-0.595, 0.595)), *handles]).kinds == {"door": "revolute"}
+
+    def test_a_lever_on_one_side_stays_with_its_leaf(self) -> None:
+        handle = [one for one in (*feet(-0.54), *arms((-0.55, -0.43))) if one[1][1] < 0]
+        assert found([*FRAME, leaf((-0.595, 0.595)), *handle]).kinds == {"door": "revolute"}

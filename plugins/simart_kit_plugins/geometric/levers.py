@@ -12,6 +12,7 @@ from simart_kit.arrays import FloatArray
 from .candidates import Candidate, Choice
 from .contact import Contacts, hanging_on
 from .fronts import meet
+from .lever_pairs import held_at, lever_pair
 from .movers import Mover
 from .rounds import is_rod
 from .scene import Box, Scene
@@ -24,14 +25,23 @@ _TURN = np.pi / 4  # how far a lever goes [rad]
 
 
 def with_levers(scene: Scene, contacts: Contacts, movers: Sequence[Mover]) -> list[Mover]:
-    """The movers, and the lever of each door through which a spindle goes as one of its own."""
+    """The movers, and the lever of each door through which a spindle goes, or that has two, as its own."""
     result: list[Mover] = []
     for mover in movers:
-        lever = _lever(scene, contacts, mover.pieces) if mover.label == "door" else ()
+        lever, reason = _lever_of(scene, contacts, mover) if mover.label == "door" else ((), "")
         result.append(replace(mover, pieces=tuple(i for i in mover.pieces if i not in lever)))
         if lever:
-            result.append(Mover(lever, "lever", 0.9 * mover.score, ("its spindle goes through a door",)))
+            result.append(Mover(lever, "lever", 0.9 * mover.score, (reason,)))
     return result
+
+
+def _lever_of(scene: Scene, contacts: Contacts, door: Mover) -> tuple[tuple[int, ...], str]:
+    panel = max(door.pieces, key=lambda piece: float(np.prod(np.sort(scene.boxes[piece].size)[1:])))
+    pierced_by = _on_spindle(scene, contacts, door.pieces, panel)
+    if pierced_by:
+        return pierced_by, "its spindle goes through a door"
+    pair = lever_pair(scene, contacts, panel, door.pieces)
+    return pair, "alike before and behind a door, held at one end"
 
 
 def pierced(scene: Scene, part: int, others: Sequence[int]) -> int | None:
@@ -42,37 +52,38 @@ def pierced(scene: Scene, part: int, others: Sequence[int]) -> int | None:
 def levering(scene: Scene, view: View) -> Choice | None:
     """About the middle of what goes through another part."""
     leaf = pierced(scene, view.part, [i for i in range(scene.count) if i != view.part])
-    origin = None if leaf is None else _pierced_at(scene, view.part, leaf)
-    if leaf is None or origin is None:
+    if leaf is None:
         return None
     axis = np.zeros(3)
     axis[int(scene.boxes[leaf].size.argmin())] = 1.0
-    candidate = Candidate("revolute", view.axes @ axis, view.axes @ origin, _TURN)
-    return candidate, 0.7, ("its spindle goes through the leaf",)
+    candidate = Candidate(
+        "revolute", view.axes @ axis, view.axes @ _pierced_at(scene, view.part, leaf), _TURN
+    )
+    return candidate, 0.7, ("turns where it goes through the leaf",)
 
 
 def with_handle(scene: Scene, view: View, levers: Sequence[int]) -> View:
     """The view, with the lever that goes through the part as its handle; as it is without one."""
     for lever in levers:
         if pierced(scene, lever, [view.part]) is not None:
-            at = _pierced_at(scene, lever, view.part)
-            if at is not None:
-                return replace(view, handle=scene.boxes[lever].turned(view.axes), foot=(view.axes @ at)[:2])
+            foot = (view.axes @ _pierced_at(scene, lever, view.part))[:2]
+            return replace(view, handle=scene.boxes[lever].turned(view.axes), foot=foot)
     return view
 
 
-def _pierced_at(scene: Scene, part: int, leaf: int) -> FloatArray | None:
-    """(3,) middle of where one part goes through the middle of another."""
+def _pierced_at(scene: Scene, part: int, leaf: int) -> FloatArray:
+    """(3,) middle of where one part goes through the middle of another, or holds on to it on both sides."""
     box = scene.boxes[leaf]
     normal = int(box.size.argmin())
     turn = np.roll(np.eye(3), 2 - normal, axis=0)  # rows: two in the leaf's plane, then its normal
     middle = cut(scene.triangles[scene.labels == part] @ turn.T, float(box.center[normal]))
-    return None if middle is None else np.array([*middle, box.center[normal]]) @ turn
+    if middle is not None:
+        return np.array([*middle, box.center[normal]]) @ turn
+    return held_at(scene.points_of(part), box)
 
 
-def _lever(scene: Scene, contacts: Contacts, door: tuple[int, ...]) -> tuple[int, ...]:
+def _on_spindle(scene: Scene, contacts: Contacts, door: Sequence[int], panel: int) -> tuple[int, ...]:
     """The spindle through a door's leaf, with all that it holds before and behind the leaf; or nothing."""
-    panel = max(door, key=lambda piece: float(np.prod(np.sort(scene.boxes[piece].size)[1:])))
     leaf = scene.boxes[panel]
     spindles = [piece for piece in door if piece != panel and _spindle(scene, piece, leaf)]
     if len(spindles) != 1:
