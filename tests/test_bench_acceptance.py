@@ -32,6 +32,8 @@ from .bench_predictions import (
 from .real_objects import DATA, needs_data
 from .test_bench_simart import CHANGED, FAULTS, PERFECT, wardrobe
 
+pytestmark = pytest.mark.slow
+
 # Joint numbers that a fault may change; those of shape only where both meshes are the same faces.
 JOINT_NUMBERS = (
     "type",

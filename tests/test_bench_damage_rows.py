@@ -29,6 +29,8 @@ from .bench_predictions import (
     write_urdf,
 )
 
+pytestmark = pytest.mark.slow
+
 Change = Callable[[Path], object]
 Damage = tuple[str, Change, str]
 """File of a truth or prediction, what is done to it, and what the error says besides the file's name."""

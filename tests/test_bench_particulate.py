@@ -182,6 +182,7 @@ def test_surfaces_are_sampled_by_area_and_small_parts_that_get_no_point_are_no_p
     assert np.abs(one.points).max() == pytest.approx(0.5, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_another_mesh_of_the_same_shape_is_nearly_perfect():
     links = (BODY, Link("door", 0, slide((0, 1, 0), 0.1)))
     one = boxes(links, [((0, 0, 0), (2, 1, 1)), ((2, 0, 0), (2.5, 1, 1))], (0, 1))

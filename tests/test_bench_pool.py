@@ -117,6 +117,7 @@ def test_children_beside_each_other_compute_in_one_thread(jobs, log, tmp_path, m
     assert "OPENBLAS_NUM_THREADS" not in os.environ
 
 
+@pytest.mark.slow
 def test_the_memory_of_the_parent_does_not_grow_with_the_jobs(jobs, log):
     list(run_each(jobs.fill, deque(["first"]), log=log))
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -139,6 +140,7 @@ def test_leaving_the_loop_ends_children_and_what_they_started(jobs, log, tmp_pat
     wait_until_gone(*pids)
 
 
+@pytest.mark.slow
 def test_children_and_what_they_started_end_with_a_parent_that_is_killed(jobs, tmp_path):
     script = f"""
         import sys

@@ -90,6 +90,7 @@ def test_an_object_that_never_ends_is_given_up(tmp_path):
     assert (row.status, row.error, row.scores["iou"]) == ("failed", "took longer than 1 s", 0.0)
 
 
+@pytest.mark.slow
 def test_a_run_gone_on_with_does_what_was_left_and_finds_the_same(home):
     run(plan(home, only=("cabinet_a",)))
     assert left_to_do(plan(home)) == 2

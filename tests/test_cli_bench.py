@@ -178,7 +178,13 @@ def test_a_mistake_is_one_line_and_exit_code_2(home, capfd, arguments, told):
     assert not (home / "out").exists()
 
 
-@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM], ids=["ctrl-c", "kill"])
+@pytest.mark.parametrize(
+    "sent",
+    [
+        pytest.param(signal.SIGINT, id="ctrl-c"),
+        pytest.param(signal.SIGTERM, id="kill", marks=pytest.mark.slow),
+    ],
+)
 def test_an_interrupted_run_keeps_what_is_done_and_tells_how_to_go_on(home, capfd, sent):
     write_home(home, ["slow_1", "slow_2"])
     command = [*RUN, "--only", "cab*", "--only", "slow*"]

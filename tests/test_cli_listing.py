@@ -100,6 +100,7 @@ def test_progress_on_a_terminal_shows_finished_stages_and_the_next():
     assert "0.25 s" in screen.getvalue()
 
 
+@pytest.mark.slow
 def test_start_up_takes_little_more_cpu_time_than_its_libraries():
     # A share rather than seconds, which depend on the machine and on what else it does.
     # Pydantic loads most of itself when a name of it is used. The share is about 2 on a quiet machine and was

@@ -74,6 +74,7 @@ def crumpled(rows: int) -> tuple[FloatArray, IntArray]:
     return points, np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
 
 
+@pytest.mark.slow
 def test_a_crumpled_sheet_comes_apart_into_few_boards_that_follow_it() -> None:
     points, faces = crumpled(40)
     assert LEAST_BOARDS < len(Surface(points, faces, 256).pieces) <= 256
@@ -95,6 +96,7 @@ def test_a_small_sheet_beside_a_large_one_keeps_its_walls() -> None:
     assert sum(piece.volume for piece in walls) == pytest.approx(5 * 0.01 * SHEET, rel=0.01)
 
 
+@pytest.mark.slow
 def test_many_fine_solids_in_each_other_are_all_covered() -> None:
     ball = trimesh.creation.icosphere(subdivisions=2, radius=0.1)
     middles = np.random.default_rng(1).uniform(-0.05, 0.05, (80, 3))

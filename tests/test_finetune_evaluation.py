@@ -80,6 +80,7 @@ def bundle():
     return replace(made, settings=made.settings.model_copy(update={"prompt": "none"}))
 
 
+@pytest.mark.slow
 def test_a_model_that_learnt_nothing_gives_answers_that_parse():
     records = [box(0, picture=True), box(1)]
     whole, parts = questions(records)

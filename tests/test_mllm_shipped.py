@@ -58,6 +58,7 @@ def test_parts_are_where_parts_are_and_move():
     assert moving == len(OBJECTS)
 
 
+@pytest.mark.slow
 def test_a_described_part_is_found_better_than_by_taking_everything():
     mesh, true = mesh_and_parts("pan_with_lid", 1)
     grounded = Simart().ground(mesh, "the lid")
@@ -65,6 +66,7 @@ def test_a_described_part_is_found_better_than_by_taking_everything():
     assert score_grounding(mesh, lid, grounded.faces).iou > score_grounding(mesh, lid, lid | ~lid).iou
 
 
+@pytest.mark.slow
 def test_the_same_object_is_answered_alike():
     mesh, _ = mesh_and_parts("scissors", 1)
     one, two = Simart().segment(mesh), Simart().segment(mesh)

@@ -316,6 +316,7 @@ def test_rerun_verifies_the_file(cabinet):
     assert "1 file verified" in output
 
 
+@pytest.mark.slow
 def test_two_runs_of_one_input_are_equal(cabinet, chain, tmp_path):
     again = recorded(cabinet_asset(), tmp_path)
     code, output = rerun_rrd("compare", "--unordered", cabinet, again)

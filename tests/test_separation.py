@@ -250,6 +250,7 @@ def keyboard(count: int) -> sk.Asset:
     return sk.Asset("keyboard", boxes_mesh([plate, *keys]), faces, parts, joints)
 
 
+@pytest.mark.slow
 def test_overlaps_of_two_hundred_keys_are_found_in_seconds() -> None:
     # Each joint is looked at with what it reaches, not with all that there is.
     asset = keyboard(200)

@@ -15,7 +15,7 @@ from simart_kit.transfer import transfer
 from .real_objects import DATA, needs_data, overlap
 from .token_models import Dictionary
 
-pytestmark = needs_data
+pytestmark = [needs_data, pytest.mark.slow]
 
 # Two of furniture with textures, a fridge of five drawers, and one whose handles are small.
 OBJECTS = ("painted_wooden_cabinet", "jsk_fridge", "bigym_base_drawers", "gz_hinged_door")

@@ -136,6 +136,7 @@ def test_a_score_counts_right_answers(plan, objects, tmp_path):
     assert np.isnan(score(network, []).loss)
 
 
+@pytest.mark.slow
 def test_the_command_trains_goes_on_and_judges(tmp_path, capfd, monkeypatch):
     monkeypatch.chdir(tmp_path)
     small = ["--objects", "6", "--held-out", "2", "--batch-size", "3", "--processes", "1"]

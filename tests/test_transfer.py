@@ -292,6 +292,7 @@ def test_a_mesh_without_size_is_refused():
 
 @needs_data
 @pytest.mark.parametrize("skin", ["input", "fused"])
+@pytest.mark.slow
 def test_real_parts_come_back_from_their_own_voxels(skin):
     found = {"seeds": [], "segments": []}
     for folder in sorted(DATA.iterdir()):
