@@ -45,9 +45,8 @@ def cleared(asset: Asset, least: float, sure: float) -> tuple[Asset, dict[str, C
     """The asset with joints that go no farther than shapes let them, and what became of each that is stopped.
 
     Of joints that block each other, that one gives way first which loses least. Where none would keep enough,
-    the one that keeps least is held fixed, and is no obstacle of its own any more; but if what waits for it
-    stands in its way, as a rack that its door drives into, that is held fixed in its stead. What is in the
-    way and can be taken out of it by its own joint is no obstacle, nor is contact that exports exclude.
+    the one that keeps least is held fixed, and is no obstacle of its own any more. What is in the way and can
+    be taken out of it by its own joint is no obstacle, nor is contact that exports exclude.
 
     Args:
         asset: with collision shapes.
@@ -67,13 +66,6 @@ def cleared(asset: Asset, least: float, sure: float) -> tuple[Asset, dict[str, C
         keeping = [name for name, clearing in stopped.items() if clearing.share >= least]
         name = (max if keeping else min)(keeping or stopped, key=lambda n: stopped[n].share)
         joint = asset.joint(name)
-        waiting = None if keeping else _waiting(asset, model, name, least, sure, allowed)
-        if waiting is not None:
-            name, span = waiting
-            found[name] = Clearing(span, (0.0, 0.0))
-            asset = _without(asset, name, joint)
-            model = _model(asset)
-            continue
         found[name] = stopped[name]
         if keeping:
             asset = asset.with_joints({name: _shortened(joint, stopped[name].free)})
@@ -83,31 +75,6 @@ def cleared(asset: Asset, least: float, sure: float) -> tuple[Asset, dict[str, C
             asset = asset.with_joints({name: held(joint, _why(joint, stopped[name]))})
             model = _model(asset)
     return asset, found
-
-
-def _waiting(
-    asset: Asset, model: mujoco.MjModel, name: str, least: float, sure: float, allowed: float
-) -> tuple[str, Span] | None:
-    """A joint, not sure, that waits for one that is stopped and without which that goes; and its range."""
-    from .checks.simulation import ranges
-    from .checks.ways import Ways
-
-    ways = Ways(model, allowed)
-    for index in ranges(model):
-        other = str(model.joint(index).name)
-        if asset.joint(other).confidence < sure and name in ways.way(index).opened:
-            tried = _without(asset, other, asset.joint(name))
-            left = _stopped(_model(tried), (), allowed).get(name)
-            if left is None or left.share >= least:
-                return other, _span(model, index)
-    return None
-
-
-def _without(asset: Asset, name: str, stopped: Joint) -> Asset:
-    """The asset with a joint held fixed that stops the one for which it waits."""
-    joint = asset.joint(name)
-    why = f"clear: {joint.kind}, in the way of {stopped.name}, for which it waits"
-    return asset.with_joints({name: held(joint, why)})
 
 
 def told(joint: Joint, clearing: Clearing) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -31,6 +32,7 @@ Pair = tuple[int, int]
 
 _STOPS = 9  # positions tried between the limits of each joint, both included, besides some near rest
 _NEAR_REST = (0.02, 0.05, 0.09)  # of the way to each limit
+_SOON = (*_NEAR_REST, 0.125, 0.25)  # a joint that stops there hardly moves
 # A corner that turns out of its frame grazes that on a hundredth of its way.
 _LEAVING = tuple(0.005 * step for step in range(1, 21))
 _MOST_OF_SHAPE = 0.25  # of its extent that a shape may lose on one side
@@ -109,24 +111,31 @@ def stopped_by_shapes(asset: Asset) -> tuple[Overlap, ...]:
     """Pairs, but those of `overlaps_on_the_way`, that a joint drives into each other by their shapes alone.
 
     Such as a door and the drawer above it, whose surfaces pass each other all the way. A pair whose surfaces
-    stop one of its joints is none, as a rack and the closed door before it.
+    stop one of its joints is none, as a rack and the closed door before it; but if shapes alone stop another
+    of its joints soon, as a door whose inside the rack's shapes touch, it is one: else one could not move.
 
     Args:
         asset: with collision shapes.
     """
     found, shapes, bodies = dict[Pair, float](), _shapes(asset), rigid_bodies(asset)
-    known = {(asset.part_index(o.one), asset.part_index(o.other)) for o in overlaps_on_the_way(asset)}
-    stopped = set[frozenset[int]]()  # pairs of rigid bodies
+    known, at_rest = (
+        {(asset.part_index(o.one), asset.part_index(o.other)) for o in met}
+        for met in (overlaps_on_the_way(asset), overlaps(asset))
+    )
+    stopped, stuck = set[frozenset[int]](), set[frozenset[int]]()  # pairs of rigid bodies
     for joint in (joint for joint in asset.joints if span(joint) != (0.0, 0.0)):
         moved = {asset.part_index(name) for name in carried(asset, joint.child)}
         still = [part for part in range(len(asset.parts)) if part not in moved]
-        stops = _stops(span(joint), _NEAR_REST)
-        for pair, depth in _met(shapes, joint, sorted(moved), still, stops).items():
-            if depth > STUCK and pair not in known and _rigid(bodies, pair) not in stopped:
-                found[pair] = max(depth, found.get(pair, 0.0))
-                if not _free(asset, joint, pair, moved):
-                    stopped.add(_rigid(bodies, pair))
-    return _named(asset, {p: depth for p, depth in found.items() if _rigid(bodies, p) not in stopped})
+        met = partial(_met, shapes, joint, sorted(moved), still)
+        deep = {p: d for p, d in met(_stops(span(joint), _NEAR_REST)).items() if d > STUCK and p not in known}
+        soon = met([share * end for end in span(joint) for share in _SOON]) if deep else {}
+        for pair, depth in deep.items():
+            found[pair] = max(depth, found.get(pair, 0.0))
+            if not _free(asset, joint, pair, moved):
+                stopped.add(_rigid(bodies, pair))
+            elif soon.get(pair, 0.0) > STUCK and pair not in at_rest:
+                stuck.add(_rigid(bodies, pair))
+    return _named(asset, {p: depth for p, depth in found.items() if _rigid(bodies, p) not in stopped - stuck})
 
 
 def _rigid(bodies: IntArray, pair: Pair) -> frozenset[int]:

@@ -82,18 +82,15 @@ def test_what_hardly_moves_is_held_fixed_flagged_and_told() -> None:
     assert (note.stage, note.level) == ("clear", "warning")
 
 
-def test_what_waits_for_a_door_and_stands_in_its_way_is_held_in_its_stead() -> None:
-    """The corner of a door's lip swings into the rack behind it, which the open door would let out."""
+def test_a_rack_that_waits_for_a_door_whose_lip_grazes_it_keeps_its_joint_as_the_door_does() -> None:
+    """The corner of the lip swings 3.6 mm into the rack, less than what surfaces may graze each other."""
     rack: Bounds = ((0.3005, 0.0, 0.2), (0.9, 0.4, 0.3))
     leaf: Bounds = ((0.0, -0.02, 0.15), (1.0, -0.001, 0.5))
     lip: Bounds = ((0.0, 0.0, 0.15), (0.3, 0.05, 0.5))
     hinge = sk.Joint("leaf_hinge", "revolute", "base", "leaf", (0, 0, 0), (0, 0, -1), sk.Limits(0.0, 1.5))
     joints = [hinge, fixed("lip", "leaf"), replace(slide("rack", 0.3), confidence=0.7)]
-    result = Clear().modify(assembled(joints, leaf=leaf, lip=lip, rack=rack))
-    assert result.joint("leaf_hinge") == hinge
-    assert result.joint("rack_slide").kind == "fixed"
-    (warning,) = [note.text for note in result.notes if note.level == "warning"]
-    assert "rack_slide is held fixed, prismatic, in the way of leaf_hinge" in warning
+    asset = assembled(joints, leaf=leaf, lip=lip, rack=rack)
+    assert Clear().modify(asset).joints == asset.joints
 
 
 def test_a_joint_that_is_sure_is_not_held_fixed_by_coarse_shapes() -> None:

@@ -73,6 +73,26 @@ def passing(lowest: float, start: float = 0.0, lift: float = 0.5) -> sk.Asset:
     return sk.Asset("passing", boxes_mesh(boxes), np.repeat(range(3), 12), parts, joints)
 
 
+def under(start: float) -> sk.Asset:
+    """A step with a post at its far end, and a box above x >= `start` whose shape is lower than its surface.
+
+    The step slides below the box by half its length; the box slides over the step, as far as to the post.
+    """
+    boxes = [((0, 0, -3), (1, 1, -2)), ((0, 0, 0), (1, 1, 1)), ((0, 0, 1), (0.2, 1, 4))]
+    above = ((start, 0, 1.1), (start + 1, 1, 4))
+    parts = (
+        sk.Part("body", collision=(block(*boxes[0]),)),
+        sk.Part("step", collision=(block(*boxes[1]), block(*boxes[2]))),
+        sk.Part("above", collision=(block((start, 0, 0.9), above[1]),)),
+    )
+    joints = (
+        sk.Joint("slide", "prismatic", "body", "step", axis=(1, 0, 0), limits=sk.Limits(0.0, 0.5)),
+        sk.Joint("back", "prismatic", "body", "above", axis=(-1, 0, 0), limits=sk.Limits(0.0, start - 0.1)),
+    )
+    faces = np.repeat([0, 1, 1, 2], 12)
+    return sk.Asset("under", boxes_mesh([*boxes, above]), faces, parts, joints)
+
+
 UNIT = block((0, 0, 0), (1, 1, 1))
 
 
@@ -197,6 +217,13 @@ class TestOverlaps:
         """The upper box is lifted off the one half below it, or pressed onto it."""
         assert len(stopped_by_shapes(passing(1.1, start=1.5, lift=0.5))) == 1
         assert stopped_by_shapes(passing(1.1, start=1.5, lift=-0.5)) == ()
+
+    def test_what_shapes_alone_keep_from_leaving_rest_passes_even_what_its_surface_stops(self) -> None:
+        """A step with a post slides under a shape that is lower than its surface, and that the post stops."""
+        for start, met in ((1.01, {("step", "above")}), (1.21, set())):
+            asset = under(start)
+            assert {(o.one, o.other) for o in stopped_by_shapes(asset)} == met
+            assert overlaps(asset) == overlaps_on_the_way(asset) == ()
 
 
 class TestSeparated:
