@@ -1,6 +1,7 @@
 """`geometric` on windows and doors in their frames: both leaves, what slides, and what turns."""
 
 import numpy as np
+import pytest
 import trimesh
 
 from simart_kit.mesh import Mesh
@@ -115,6 +116,13 @@ class TestLines:
         assert_hinge(result.joint("lever"), (-0.54, 0, 1), "y")
         assert result.joint("lever").parent == "door"
         assert len(result.faces("lever")) == 4 * 12
+
+    @pytest.mark.parametrize("side", [-1, 1])
+    def test_the_far_end_of_a_lever_goes_down(self, side: int) -> None:
+        across = sorted((side * 0.55, side * 0.43))
+        levers = [*feet(side * 0.54), *arms((across[0], across[1]))]
+        lever = found([*FRAME, leaf((-0.595, 0.595)), *levers]).joint("lever")
+        assert np.cross(lever.axis, [-side, 0, 0])[2] < -0.9
 
     def test_handles_that_are_held_at_both_ends_stay_with_their_leaf(self) -> None:
         handles = [*feet(-0.54), *feet(-0.44), *arms((-0.55, -0.43))]

@@ -50,15 +50,14 @@ def pierced(scene: Scene, part: int, others: Sequence[int]) -> int | None:
 
 
 def levering(scene: Scene, view: View) -> Choice | None:
-    """About the middle of what goes through another part."""
+    """About the middle of what goes through another part, so that its far end goes down."""
     leaf = pierced(scene, view.part, [i for i in range(scene.count) if i != view.part])
     if leaf is None:
         return None
-    axis = np.zeros(3)
+    axis, origin = np.zeros(3), _pierced_at(scene, view.part, leaf)
     axis[int(scene.boxes[leaf].size.argmin())] = 1.0
-    candidate = Candidate(
-        "revolute", view.axes @ axis, view.axes @ _pierced_at(scene, view.part, leaf), _TURN
-    )
+    rises = np.cross(axis, scene.boxes[view.part].center - origin)[2] > 0
+    candidate = Candidate("revolute", view.axes @ (-axis if rises else axis), view.axes @ origin, _TURN)
     return candidate, 0.7, ("turns where it goes through the leaf",)
 
 
