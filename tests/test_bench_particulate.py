@@ -38,6 +38,7 @@ def test_the_protocol_gives_exactly_the_metrics_it_declares():
     assert set(score(cloud((BODY, CUBE)), cloud((BODY, CUBE)))) == set(keys)
 
 
+@pytest.mark.slow
 def test_a_perfect_prediction_is_perfect_whatever_its_scale_place_and_order_of_faces():
     links = (BODY, Link("door", 0, hinge((1, 1, 0))), Link("drawer", 0, slide((0, -1, 0))))
     sizes = [((0, 0, 0), (2, 1, 1)), ((2, 0, 0), (2.2, 1, 1)), ((0, -0.4, 0), (1, 0, 0.5))]

@@ -17,6 +17,8 @@ from .bench_objects import cabinet
 from .bench_predictions import write_labels, write_urdf
 from .bench_runs import plan, write_home
 
+pytestmark = pytest.mark.slow
+
 NAMES = ("one", "two")
 
 

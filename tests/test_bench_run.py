@@ -106,6 +106,7 @@ def test_a_run_gone_on_with_does_what_was_left_and_finds_the_same(home):
     assert one == two
 
 
+@pytest.mark.slow
 def test_a_damaged_row_is_done_again(home):
     run(plan(home))
     row = home / "run" / "objects" / "block" / "row.json"
@@ -148,6 +149,7 @@ def test_a_folder_of_other_settings_is_refused(home, changed, told):
         run(changed(home))
 
 
+@pytest.mark.slow
 def test_a_folder_that_is_no_run_or_is_in_use_is_refused(home):
     (home / "mine").mkdir()
     (home / "mine" / "thesis.txt").write_text("years of work")

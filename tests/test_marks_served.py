@@ -26,6 +26,8 @@ from .mesh_files import gltf, save_glb
 from .recordings import chunks
 from .vlm_server import KEY
 
+pytestmark = pytest.mark.slow
+
 BARE = ["export=[]", "modify=[]", 'segmenter.options.proposer={use="geometric"}']
 
 
@@ -341,7 +343,6 @@ def process(sets, *more):
     return subprocess.run(words, capture_output=True, text=True, timeout=120, check=False, env={**os.environ})
 
 
-@pytest.mark.slow
 def test_the_command_as_users_start_it_writes_all_that_it_writes(home):
     with model(plain(429), spoken(echoed)) as served:
         changes = [change for change in asking(served.url, critic=1) if "=[]" not in change]

@@ -45,6 +45,7 @@ def quoted(cell: str) -> list[str]:
     return re.findall(r"`\.?([\w-]+)`", cell)
 
 
+@pytest.mark.slow
 def test_python_block_does_what_its_comments_say(home: Path) -> None:
     (code,) = re.findall(r"^```python\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)
     names: dict[str, object] = {}
