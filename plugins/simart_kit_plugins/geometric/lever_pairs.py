@@ -38,7 +38,7 @@ def lever_pair(scene: Scene, contacts: Contacts, panel: int, door: Sequence[int]
     beside: list[list[tuple[int, ...]]] = []
     for side in (-1, 1):
         out = [i for i in door if i != panel and _stands_out(scene.boxes[i], leaf, side)]
-        beside.append([one for one in _hanging_together(scene, contacts, out) if is_lever(scene, one, leaf)])
+        beside.append([one for one in _hanging_together(scene, contacts, out) if _is_lever(scene, one, leaf)])
     for one, other in product(*beside):
         if _mirrored(_box(scene, one), _box(scene, other), normal):
             return tuple(sorted((*one, *other)))
@@ -51,7 +51,7 @@ def held_at(points: FloatArray, leaf: Box) -> FloatArray:
     return np.asarray((near.min(axis=0) + near.max(axis=0)) / 2)
 
 
-def is_lever(scene: Scene, pieces: tuple[int, ...], leaf: Box) -> bool:
+def _is_lever(scene: Scene, pieces: tuple[int, ...], leaf: Box) -> bool:
     """Whether pieces beside a leaf are a level bar that only one of its ends holds, near the leaf's edge."""
     box, normal = _box(scene, pieces), int(leaf.size.argmin())
     across = 1 - normal
