@@ -58,7 +58,7 @@ def levering(scene: Scene, view: View) -> Choice | None:
     axis[int(scene.boxes[leaf].size.argmin())] = 1.0
     rises = np.cross(axis, scene.boxes[view.part].center - origin)[2] > 0
     candidate = Candidate("revolute", view.axes @ (-axis if rises else axis), view.axes @ origin, _TURN)
-    return candidate, 0.7, ("turns where it goes through the leaf",)
+    return candidate, 0.7, ("turns where its leaf holds it",)
 
 
 def with_handle(scene: Scene, view: View, levers: Sequence[int]) -> View:

@@ -11,7 +11,7 @@ from simart_kit.arrays import FloatArray
 from .caps import measure_cap, stacked_on
 from .contact import Contacts
 from .movers import Mover
-from .scene import Box, Scene
+from .scene import FACINGS, Box, Scene
 
 _ROUND = 0.03  # how far within the radius a corner still lies on the rim, as a share of it
 _LARGEST_GAP = np.deg2rad(50.0)  # between corners of the rim: an octagon is a coarse wheel, a hexagon a nut
@@ -22,7 +22,7 @@ _MUSHROOM = 0.12  # [m] the same of one over a hole in the body: for a whole han
 _SMALL = 0.1  # of the object's diagonal, such a one: the lid of a jar or a pot is wider
 _HOLE = (0.85, 1.3)  # radius of that hole, in radii of the cap over it
 _DEPTH = (0.1, 1.0)  # its depth, in widths of the cap: bottles are deeper
-_FRONT, _UP = np.array([0.0, -1.0, 0.0]), np.array([0.0, 0.0, 1.0])
+_OUTWARD = (FACINGS["front"][2], FACINGS["top"][2])  # where buttons over holes face
 _NEAR = 1e-5  # a ray starts so far off a cap
 _WAYS = 16  # in which the walls of a hole are felt
 
@@ -128,7 +128,7 @@ def over_holes(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]
         if piece in taken or piece == body or not able:
             continue
         axis = round_axis(scene.points_of(piece))
-        if any(_covers_hole(scene, box, way, body) for way in (_FRONT, _UP) if axis in np.flatnonzero(way)):
+        if any(_covers_hole(scene, box, way, body) for way in _OUTWARD if axis in np.flatnonzero(way)):
             movers.append(Mover((piece,), "button", 0.6, reason))
     return movers
 

@@ -12,7 +12,7 @@ from .candidates import Choice, spin
 from .casting import first_met
 from .contact import Contacts, smallest_distance
 from .movers import Mover
-from .scene import Box, Scene
+from .scene import FACINGS, Box, Scene
 from .views import View
 
 SPRAY_ARMS = ("spray", "sprayer", "sprinkler")
@@ -44,7 +44,7 @@ def whirling(scene: Scene, view: View) -> Choice | None:
     box = scene.boxes[view.part]
     if not _is_bar(box):
         return None
-    turning = spin(view.axes @ np.array([0.0, 0.0, 1.0]), view.axes @ box.center)
+    turning = spin(view.axes @ FACINGS["top"][2], view.axes @ box.center)
     return turning, 0.7, ("held at its middle, and free all around",)
 
 
@@ -69,7 +69,7 @@ def _held_at_middle(scene: Scene, bar: Box, holders: Sequence[int]) -> bool:
 def _in_cavity(scene: Scene, bar: Box, body: int) -> bool:
     """Whether the body has walls on three sides at least and something above, and the bar spans it."""
     passing = np.delete(np.arange(scene.count), body)
-    sides = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1]], dtype=np.float64)
+    sides = (FACINGS[name][2] for name in ("left", "right", "front", "back", "top"))
     ways = np.array([_nearest(scene, bar.center[None], way, passing) for way in sides])
     walled = np.isfinite(ways[:4]).sum() >= 3 and np.isfinite(ways[4])
     return bool(walled and bar.size.max() > _SHORTEST * min(ways[:2].sum(), ways[2:4].sum()))
