@@ -245,6 +245,18 @@ class TestRoundThings:
         for joint in result.joints:
             np.testing.assert_allclose(np.abs(joint.axis), (0, 1, 0), atol=1e-9)
 
+    def test_coarse_knobs_are_alike_however_they_are_turned(self) -> None:
+        def knob(k: int) -> Mesh:
+            disc = trimesh.creation.cylinder(radius=0.02, height=0.02, sections=8)
+            points = disc.vertices @ rotation(np.array([0, 0, 0.13 * k])).T
+            points = points @ rotation(np.array([np.pi / 2, 0, 0])).T + (0.1 * k - 0.15, -0.31, 0.8)
+            return Mesh(points, disc.faces)
+
+        block = boxes_mesh([box((-0.3, 0.3), (-0.3, 0.3), (0.0, 0.85))])
+        assert found(joined(block, *map(knob, range(4)))).kinds == {
+            f"knob_{n}": "revolute" for n in (1, 2, 3, 4)
+        }
+
 
 class TestAjar:
     @pytest.mark.parametrize(("edge", "sense"), [(INSET[0], -1.0), (INSET[1], 1.0)])

@@ -8,7 +8,7 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray, IntArray
 
-from .scene import Scene
+from .scene import Box, Scene
 
 _MOST = 16  # pieces on a ray's way that are passed through
 _BEYOND = 1e-4  # a ray goes on so far behind what it passes through
@@ -41,3 +41,17 @@ def first_met(
         going = going[again]
         origins[going] += (distance[again] + _BEYOND)[:, None] * direction
     return labels, total
+
+
+def cast(
+    scene: Scene, axes: FloatArray, origins: FloatArray, direction: FloatArray, passing: tuple[int, ...] = ()
+) -> tuple[IntArray, FloatArray]:
+    """As `first_met`, for rays given in (u, v, w)."""
+    return first_met(scene, origins @ axes, direction @ axes, passing)
+
+
+def grid(box: Box, count: int, shrink: float) -> FloatArray:
+    """(count^2, 2) points of a rectangle (u, v)."""
+    steps = (np.arange(count) + 0.5) / count * 2 - 1
+    u, v = np.meshgrid(steps, steps)
+    return box.center[:2] + 0.5 * shrink * box.size[:2] * np.column_stack([u.ravel(), v.ravel()])

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .candidates import Candidate
-from .scene import Box
+from .scene import FACINGS, Box
 from .views import View
 
 SLIDING = ("drawer", "tray", "rack", "slide", "sliding", "button", "basket")
@@ -17,6 +17,7 @@ HINGED = ("door", "lid", "flap", "cover", "hatch", "gate", "window", "hinge")
 STANDING_OPEN = (*HINGED, "screen", "display", "tailgate")
 RACKS = ("rack", "tray", "basket")
 SPINNING = ("wheel", "knob", "caster", "dial", "fan", "rotor")
+_TALL = 2.0  # times as high as wide, a leaf never hangs by its lower or upper edge
 AJAR = np.deg2rad(1.0)
 
 
@@ -28,11 +29,13 @@ class Surroundings:
         hardware: small pieces of the body, some of which may be hinges.
         neighbours: boxes of other moving parts.
         posts: round, upright pieces of the body.
+        unheld: edges of the part behind which nothing could hold a hinge.
     """
 
     hardware: tuple[Box, ...]
     neighbours: tuple[Box, ...]
     posts: tuple[Box, ...] = ()
+    unheld: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,13 @@ def says(label: str, words: Sequence[str]) -> bool:
     """Whether a label names one of these things."""
     spoken = re.findall(r"[a-z]+", label.lower())
     return any(word in (one, one.removesuffix("s")) for one in spoken for word in words)
+
+
+def sides(label: str) -> tuple[str, ...]:
+    """Facings that a part called so may have, whatever shows most of it."""
+    if says(label, ("drawer",)):  # an open one shows more of its inside than of its front
+        return tuple(name for name in FACINGS if name != "top")
+    return ("top",) if says(label, ("seat",)) else tuple(FACINGS)  # a seat may lie under its lid
 
 
 def slide_score(view: View, label: str) -> Score:
@@ -79,10 +89,11 @@ def edge_score(view: View, hinge: Candidate, around: Surroundings) -> Score:
     across, up = view.handle_place
     opposite = {"left": across, "right": -across, "bottom": up, "top": -up}[hinge.edge]
     meets = _neighbour_beyond(view, hinge, around)
-    # What is of neither of two leaves, where they meet, is a lock or a handle.
-    hardware = [] if meets else hardware_on(view, hinge, around)
     upright = hinge.edge in ("left", "right")
     lid = view.facing == "top"
+    tall = not upright and not lid and bool(view.box.size[1] > _TALL * view.box.size[0])
+    # What is of neither of two leaves, where they meet, is a lock or a handle; below a tall one are feet.
+    hardware = [] if meets or tall else hardware_on(view, hinge, around)
     bar = view.handle is not None and view.handle.size[0] > view.handle.size[1]
     centred = abs(across) < 0.3 and abs(up) > 0.5
     return _sum(
@@ -98,6 +109,8 @@ def edge_score(view: View, hinge: Candidate, around: Surroundings) -> Score:
         (-0.7, meets, ""),
         (0.3, _at_body_edge(view, hinge), "at the outer edge of the body"),
         (-0.6, not upright and not lid, ""),
+        (-0.8, tall, ""),
+        (-0.5, meets and hinge.edge in around.unheld, ""),
         (0.5, lid and hinge.edge == "top", "lids open from the back"),
         (-0.4, lid and hinge.edge == "bottom", ""),
     )

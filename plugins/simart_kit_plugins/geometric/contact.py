@@ -15,6 +15,9 @@ from simart_kit.bounds import triangle_bounds
 from .scene import Scene
 
 T = TypeVar("T", bound=np.generic)
+TOUCH = 0.004  # of the diagonal: closer than this, a handle sits on its panel
+HOLDS = 0.001  # closer than this, a wall holds a shelf
+
 _MOST_POINTS, _MOST_TRIANGLES = 300, 4000
 _CHUNK = 1 << 16
 

@@ -9,22 +9,21 @@ import numpy as np
 
 from simart_kit.arrays import BoolArray, FloatArray, IntArray
 
-from .casting import first_met
-from .contact import Contacts, hanging_on
+from .casting import cast, grid
+from .contact import HOLDS, TOUCH, Contacts, hanging_on
+from .drawer_boxes import backing, bare, hanging_behind, hollow, is_drawer_box, reaches_back
 from .scene import FACINGS, Box, Scene
 
 # All lengths are shares of the object's diagonal.
-TOUCH = 0.004  # closer than this, a handle sits on its panel
 PANEL = 0.7  # share of a piece's surface that faces out or back, above which it is a panel
 LOOSE = 2e-4  # farther than this, a panel is not glued to its neighbour
-HOLDS = 0.001  # closer than this, a wall holds a shelf
-HANGS = 0.012  # closer than this, a box behind a front hangs on it
 SMALLEST = 0.035  # a front is at least this wide and high
 SPANNING = 0.7  # a piece that fills this share of every extent is the body
 VISIBLE = 0.7  # share of a front's rectangle that is seen from outside
 OPEN = 0.3  # share of rays straight back that meet something, below which one may pass behind a panel
 
 _LARGE = 0.25  # share of a panel's rectangle from which on a piece that lies on it is no handle
+_SMALLER = 0.95  # the same of a board that lies on a panel: a larger one is another panel
 _GRIPS = 0.15  # share of a panel's rectangle that what one takes hold of covers at most
 _AROUND = np.diag([-1.0, 1.0, -1.0])  # (u, v, w) as seen from the other side
 
@@ -97,7 +96,7 @@ def find_fronts(scene: Scene, contacts: Contacts, facing: str, fused: bool = Fal
         inner = box.upper[2] < whole.center[2]
         if inner and not thin(box):
             continue
-        inlays = _carried(boxes, piece) if fused else _inlays(boxes, piece)
+        inlays = _carried(boxes, piece) if fused else _layers(scene, axes, contacts, boxes, piece)
         if _seen(scene, axes, box, (piece, *inlays)) < VISIBLE:
             continue
         # Seen through an opening, it is a back wall, which has no handle.
@@ -112,16 +111,17 @@ def _front(
     axes, box = FACINGS[facing], boxes[piece]
     handles = _handles(contacts, boxes, piece, inlays)
     # What lies under a lid is what it closes, not what it carries.
-    behind = _behind(contacts, boxes, piece, (*inlays, *handles)) if facing != "top" else ()
-    if behind and not _drawer_box(scene, axes, boxes, piece, behind):
-        behind = ()  # racks, baskets and rails are not a drawer's box: they stay when a door opens
+    behind = hanging_behind(contacts, boxes, piece, (*inlays, *handles)) if facing != "top" else ()
+    if behind and not is_drawer_box(scene, axes, boxes, piece, behind):
+        # Racks, baskets and rails are not a drawer's box: they stay when a door opens.
+        behind = backing(boxes, piece, behind)
     own = (piece, *inlays, *handles, *behind)
     whole = scene.box.turned(axes)
     flat = _flat(scene, axes, (piece, *inlays))
     # A flat piece is a panel however far back it reaches: then it stands ajar.
     deep = behind if flat > PANEL else (piece, *behind)
-    boxed = bool(deep) and _boxed(box.upper[2] - min(boxes[i].lower[2] for i in deep), box, whole)
-    boxed = boxed and not (facing != "top" and _bare(scene, axes, Box.around([boxes[i] for i in deep]), own))
+    boxed = bool(deep) and reaches_back(box.upper[2] - min(boxes[i].lower[2] for i in deep), box, whole)
+    boxed = boxed and not (facing != "top" and bare(scene, axes, Box.around([boxes[i] for i in deep]), own))
     walled, backed, depth = _surroundings(
         scene, axes, box, own, box.upper[2] - 0.02 if boxed else box.lower[2]
     )
@@ -142,7 +142,7 @@ def _front(
         framed=sum(beside) / 4,
         jambs=beside[0] and beside[1],
         boxed=boxed,
-        hollow=_hollow(scene, axes, box, piece),
+        hollow=hollow(scene, axes, box, piece),
         flat=flat,
         loose=not any(contacts.within(piece, i, LOOSE) for i in range(len(boxes)) if i not in own),
         share=float(np.prod(box.size[:2]) / np.prod(whole.size[:2])),
@@ -156,51 +156,10 @@ def thin(box: Box) -> bool:
     return bool(box.size[2] < 0.5 * box.size[:2].min())
 
 
-def _boxed(reach: float, front: Box, whole: Box) -> bool:
-    """Whether a front with this reach behind it [w] is a drawer's."""
-    return bool(reach > 0.3 * whole.size[2] and reach > 0.3 * front.size[:2].min())
-
-
-def _bare(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> bool:
-    """Whether a solid top lies open to the sky, as that of a mattress or a seat does, and of no drawer."""
-    highest = scene.box.turned(axes).upper[1]
-    labels, distance = _from_above(scene, axes, box, highest)
-    near_top = distance < highest + 0.01 - box.upper[1] + 0.5 * box.size[1]
-    return float((np.isin(labels, own) & near_top).mean()) > 0.5
-
-
-def _hollow(scene: Scene, axes: FloatArray, box: Box, piece: int) -> bool:
-    """Whether most rays from above go well into a piece before they meet it."""
-    others = tuple(i for i in range(scene.count) if i != piece)
-    labels, distance = _from_above(scene, axes, box, box.upper[1], others)
-    return float(((labels >= 0) & (distance > 0.3 * box.size[1])).mean()) > 0.5
-
-
-def _from_above(
-    scene: Scene, axes: FloatArray, box: Box, height: float, passing: tuple[int, ...] = ()
-) -> tuple[IntArray, FloatArray]:
-    """What rays straight down over a box meet first, and how far below a little above `height` [v]."""
-    above = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])  # (u, v, w) -> across, depth, upward
-    points = _grid(box.turned(above), 8, 0.8)
-    origins = np.column_stack([points[:, 0], np.full(len(points), height + 0.01), -points[:, 1]])
-    return cast(scene, axes, origins, np.array([0.0, -1.0, 0.0]), passing)
-
-
 def _flat(scene: Scene, axes: FloatArray, pieces: tuple[int, ...]) -> float:
     faces = scene.faces_of(pieces)
     facing = np.abs(scene.normals[faces] @ axes[2]) > 0.9
     return float(scene.face_areas[faces][facing].sum() / max(scene.face_areas[faces].sum(), 1e-30))
-
-
-def _within(inner: Box, outer: Box, margin: float) -> bool:
-    """Whether one rectangle (u, v) lies in another."""
-    # One number after the other: it is asked of all pairs of pieces, and the first mostly tells.
-    return bool(
-        inner.lower[0] >= outer.lower[0] - margin
-        and inner.upper[0] <= outer.upper[0] + margin
-        and inner.lower[1] >= outer.lower[1] - margin
-        and inner.upper[1] <= outer.upper[1] + margin
-    )
 
 
 def _inlays(boxes: list[Box], piece: int) -> tuple[int, ...]:
@@ -209,10 +168,36 @@ def _inlays(boxes: list[Box], piece: int) -> tuple[int, ...]:
         i
         for i, box in enumerate(boxes)
         if i != piece
-        and _within(box, panel, LOOSE)
+        and box.lies_in(panel, LOOSE)
         and box.lower[2] >= panel.lower[2] - TOUCH
         and box.upper[2] <= panel.upper[2] + TOUCH
     )
+
+
+def _layers(
+    scene: Scene, axes: FloatArray, contacts: Contacts, boxes: list[Box], piece: int
+) -> tuple[int, ...]:
+    """Inlays, and of a panel that is held by nothing else the boards that lie on it, which may hide it."""
+    inlays, panel = _inlays(boxes, piece), boxes[piece]
+    if not thin(panel):
+        return inlays
+    smaller = _SMALLER * np.prod(panel.size[:2])
+    lying = tuple(
+        i
+        for i in _carried(boxes, piece)
+        if i not in inlays
+        and thin(boxes[i])
+        and np.prod(boxes[i].size[:2]) < smaller
+        and _flat(scene, axes, (i,)) > PANEL
+    )
+    if not lying:
+        return inlays
+    own = {piece, *inlays, *lying, *_handles(contacts, boxes, piece, inlays)}
+    behind = hanging_behind(contacts, boxes, piece, tuple(own))
+    if behind and is_drawer_box(scene, axes, boxes, piece, behind):
+        own.update(behind)
+    held = any(contacts.within(piece, i, LOOSE) for i in range(len(boxes)) if i not in own)
+    return inlays if held else (*inlays, *lying)
 
 
 def _carried(boxes: list[Box], piece: int) -> tuple[int, ...]:
@@ -224,7 +209,7 @@ def _carried(boxes: list[Box], piece: int) -> tuple[int, ...]:
         for i, box in enumerate(boxes)
         if i != piece
         and np.prod(box.size[:2]) > large
-        and _within(box, panel, LOOSE)
+        and box.lies_in(panel, LOOSE)
         and panel.lower[2] - TOUCH <= box.lower[2] <= panel.upper[2] + 2 * TOUCH
     )
     return tuple(dict.fromkeys((*_inlays(boxes, piece), *lying)))
@@ -238,7 +223,7 @@ def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int
         i
         for i, box in enumerate(boxes)
         if i not in (piece, *inlays)
-        and _within(box, panel, 0.5 * TOUCH)
+        and box.lies_in(panel, 0.5 * TOUCH)
         and box.upper[2] > panel.upper[2] + 0.5 * TOUCH
         and box.upper[2] > reach
         and np.prod(box.size[:2]) < _LARGE * np.prod(panel.size[:2])
@@ -278,63 +263,9 @@ def meet(contacts: Contacts, boxes: Sequence[Box], one: int, other: int) -> bool
     return boxes[one].overlap(boxes[other], -TOUCH) or contacts.within(one, other, TOUCH)
 
 
-def _behind(contacts: Contacts, boxes: list[Box], piece: int, front: tuple[int, ...]) -> tuple[int, ...]:
-    """A drawer's box behind its front: it hangs on the front, and no wall beside it holds it."""
-    panel = boxes[piece]
-    inside = [
-        i
-        for i, box in enumerate(boxes)
-        if i not in (piece, *front) and _within(box, panel, 0.0) and box.upper[2] <= panel.upper[2] + TOUCH
-    ]
-    own = {piece, *front, *inside}
-
-    def joined(i: int, j: int) -> bool:
-        return contacts.within(i, j, HANGS) and not _held(contacts, boxes, i, own)
-
-    hanging = hanging_on({piece}, inside, joined)
-    return tuple(i for i in inside if i in hanging)
-
-
-def _held(contacts: Contacts, boxes: list[Box], piece: int, own: set[int]) -> bool:
-    """Whether something beside a piece holds it at both ends, as walls hold a shelf."""
-    box = boxes[piece]
-    holders = [
-        i
-        for i, other in enumerate(boxes)
-        if i not in own
-        and other.lower[1] < box.center[1] < other.upper[1]
-        and contacts.within(piece, i, HOLDS)
-    ]
-    left = any(boxes[i].lower[0] <= box.lower[0] + TOUCH for i in holders)
-    right = any(boxes[i].upper[0] >= box.upper[0] - TOUCH for i in holders)
-    return left and right
-
-
-def _drawer_box(
-    scene: Scene, axes: FloatArray, boxes: list[Box], piece: int, behind: tuple[int, ...]
-) -> bool:
-    """Whether what hangs behind fills the front's rectangle fairly, and is closed when seen from below."""
-    inner = Box.around([boxes[i] for i in behind])
-    if (inner.size[:2] < (0.6, 0.3) * boxes[piece].size[:2]).any():
-        return False
-    below = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # (u, v, w) -> across, depth, downward
-    points = _grid(inner.turned(below), 8, 0.9)
-    origins = np.column_stack([points[:, 0], np.full(len(points), inner.lower[1] - 0.01), points[:, 1]])
-    others = tuple(i for i in range(scene.count) if i not in behind)
-    labels, _ = cast(scene, axes, origins, np.array([0.0, 1.0, 0.0]), others)
-    return float((labels >= 0).mean()) >= 0.85
-
-
-def _grid(box: Box, count: int, shrink: float) -> FloatArray:
-    """(count^2, 2) points of a rectangle (u, v)."""
-    steps = (np.arange(count) + 0.5) / count * 2 - 1
-    u, v = np.meshgrid(steps, steps)
-    return box.center[:2] + 0.5 * shrink * box.size[:2] * np.column_stack([u.ravel(), v.ravel()])
-
-
 def _seen(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> float:
     """Share of the rectangle where the own pieces, or what sits on them, are met first from outside."""
-    points = _grid(box, 12, 1.0)
+    points = grid(box, 12, 1.0)
     outside = scene.box.turned(axes).upper[2] + 1.0
     origins = np.column_stack([points, np.full(len(points), outside)])
     labels, distance = cast(scene, axes, origins, np.array([0.0, 0.0, -1.0]))
@@ -352,7 +283,7 @@ def _surroundings(
     scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...], behind: float
 ) -> tuple[float, float, float]:
     """Shares of rays from just behind the panel that meet other pieces: to the sides, and straight back."""
-    points = _grid(box, 5, 0.8)
+    points = grid(box, 5, 0.8)
     origins = np.column_stack([points, np.full(len(points), behind - 0.5 * TOUCH)])
     sides = []
     for direction in ([1.0, 0, 0], [-1.0, 0, 0], [0, 1.0, 0], [0, -1.0, 0]):
@@ -377,10 +308,3 @@ def _beside(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> t
             labels, distance = cast(scene, axes, points - 0.001 * direction, direction, own)
             sides.append(bool(((labels >= 0) & (distance < near)).mean() > 0.5))
     return tuple(sides)
-
-
-def cast(
-    scene: Scene, axes: FloatArray, origins: FloatArray, direction: FloatArray, passing: tuple[int, ...] = ()
-) -> tuple[IntArray, FloatArray]:
-    """As `first_met`, for rays given in (u, v, w)."""
-    return first_met(scene, origins @ axes, direction @ axes, passing)

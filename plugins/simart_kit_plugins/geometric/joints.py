@@ -26,10 +26,12 @@ from .choice import (
     hardware_on,
     hinge_score,
     says,
+    sides,
     slide_score,
 )
 from .contact import Contacts
 from .control_joints import pressed, pulled, tilted, turned
+from .inner_drawers import out_of_hiding
 from .levers import LEVERS, levering, pierced, with_handle
 from .open_leaves import opened
 from .pivots import is_post, on_post, pivot
@@ -38,7 +40,9 @@ from .rotors import ROTORS, about_symmetry
 from .rounds import round_axis
 from .sashes import SASHES, sliding
 from .scene import Box, Scene, make_scene
+from .seats import turned_up
 from .spray_arms import SPRAY_ARMS, whirling
+from .supports import unheld
 from .views import View, view_part
 
 if TYPE_CHECKING:
@@ -71,7 +75,7 @@ def joints_of(
     moving = [i for i in range(scene.count) if i != body]
     labels = [part.label or part.name for part in segmentation.parts]
     levers = [i for i in moving if says(labels[i], LEVERS)]
-    views = {i: with_handle(scene, view_part(scene, i), levers) for i in moving}
+    views = {i: with_handle(scene, view_part(scene, i, sides(labels[i])), levers) for i in moving}
     pieces = make_scene(mesh, find_segments(mesh, relief=True).face_segment)
     hardware = _hardware(pieces, scene, body)
     posts = _posts(pieces, scene, body)
@@ -140,12 +144,14 @@ _SPECIAL: tuple[tuple[tuple[str, ...], Callable[[Scene, View], Choice | None]], 
     (ROTORS, about_symmetry),
     (SASHES, sliding),
     (SPRAY_ARMS, whirling),
+    (("seat",), turned_up),
     (("knob",), turned),
     (SPINNING, _spinning),
     (("button", "touchpad", "squeeze"), pressed),
     (("trigger",), pulled),
     (("thumbstick",), tilted),
     (STANDING_OPEN, opened),
+    (("drawer",), out_of_hiding),
     (RACKS, sliding_out),
 )
 
@@ -238,6 +244,7 @@ def _surroundings(
         tuple(box.turned(view.axes) for box in hardware.boxes) if hardware else (),
         tuple(scene.boxes[i].turned(view.axes) for i in others),
         tuple(box.turned(view.axes) for box in posts),
+        unheld(scene, view, tuple(others)),
     )
 
 

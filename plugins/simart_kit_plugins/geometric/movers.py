@@ -11,7 +11,7 @@ from .contact import Contacts
 from .fronts import OPEN, Front, find_fronts, thin
 from .sashes import passing, slides_over
 from .scene import FACINGS, Scene
-from .siblings import twins
+from .siblings import rows, twins
 from .skin_fronts import boards, leaves, on_tracks, parted_side, stacked
 
 ENCLOSED = 0.85  # share of rays behind a panel that must meet something for a cavity
@@ -23,6 +23,11 @@ LEAST_SHARE = 0.06  # of its side that a front without a handle takes
 SLAT = 8.0  # times as long as wide, a panel without a handle is a slat
 TALL = 0.8  # share of the object's height above which a leaf is for passing through
 MOST = 0.4  # share of its side that the leaf in a doorway takes
+_ALL = 0.99  # share of its side from which on a front leaves nothing else of it
+_SHEET = 1e-4  # what is thinner has no back of its own
+_MOST_OPEN = 0.5  # share of its side that a drawer which stands open takes: larger boxes hold the rest
+_DOORWAY = 0.7  # share of rays to the sides that meet the frame behind a leaf: there is no sill
+_ROW = 3  # so many alike are a row
 _TWIN = 0.5  # how sure a front is of which only its twin opens by itself
 _BARE = 0.6  # how sure a front is that only the parting of a skin tells
 _DOUBTFUL = 0.3  # how sure a front is that takes its whole side, and for which nothing else speaks
@@ -53,7 +58,8 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     parted side.
     """
     fronts = {facing: find_fronts(scene, contacts, facing, fused) for facing in FACINGS}
-    main = _main_side(fronts)
+    in_rows = {facing: [] if fused else _rows(scene, fronts[facing]) for facing in FACINGS}
+    main = _main_side(fronts, in_rows)
     every = [front for facing in FACINGS for front in fronts[facing]]
     able = [] if fused else [front for front in every if _is_panel(front)]
     tracks = passing(scene, [front for front in able if front.framed >= 0.5])
@@ -69,7 +75,9 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
         tracks = {front.piece for front in sliding}
         bare = [*leaves(scene, able), *sliding, *parted_side(scene, fronts)]
         scored += [(_BARE, front) for front in bare if front.piece not in told]
-    scored = _without_skins(scored)
+    scored = _without_skins(_layered(scored))
+    known = {piece for _, front in scored for piece in front.pieces}
+    scored += [(_TWIN, front) for front in in_rows[main] if front.piece not in known]
     scored += [(_TWIN, front) for front in twins(scene, [front for _, front in scored], able)]
     tracks |= {front.piece for _, front in scored if _is_panel(front) and slides_over(scene, front)}
     drawers = stacked([front for _, front in scored]) if fused else set()
@@ -80,10 +88,43 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
 def doubtful_movers(scene: Scene, contacts: Contacts, taken: set[int]) -> list[Mover]:
     """Panels and boxes of the main side and on top, for which too little speaks; none of `taken` pieces."""
     fronts = {facing: find_fronts(scene, contacts, facing) for facing in FACINGS}
-    sides = {_main_side(fronts), "top"}
+    sides = {_main_side(fronts, {}), "top"}
     found = [front for facing in FACINGS if facing in sides for front in fronts[facing]]
     able = [front for front in found if _is_panel(front) or front.boxed]
     return _apart([(_DOUBTFUL * front.share, front) for front in able], taken, {})
+
+
+def _rows(scene: Scene, fronts: Sequence[Front]) -> list[Front]:
+    """Panels of a side that are each too small to tell, and in rows of alike ones close cavities."""
+    bare = [
+        front
+        for front in fronts
+        if front.share < LEAST_SHARE
+        and front.facing != "top"
+        and front.loose
+        and not front.handles
+        and not _like_slat(front)
+        and _is_panel(front)
+        and _closes_cavity(front)
+    ]
+    return [
+        front
+        for row in rows(scene, bare, _ROW)
+        for front in row
+        if sum(one.share for one in row) >= LEAST_SHARE
+    ]
+
+
+def _layered(scored: Sequence[tuple[float, Front]]) -> list[tuple[float, Front]]:
+    """Without those that are stuck on one that is held by nothing else, which is as sure as they are."""
+    outer = {id(front): score for score, front in scored}
+    dropped = set[int]()
+    for score, front in scored:
+        for _, other in scored:
+            if other.loose and not front.loose and front.piece in other.inlays:
+                outer[id(other)] = max(outer[id(other)], score)
+                dropped.add(id(front))
+    return [(outer[id(front)], front) for _, front in scored if id(front) not in dropped]
 
 
 def _without_skins(scored: Sequence[tuple[float, Front]]) -> list[tuple[float, Front]]:
@@ -115,14 +156,14 @@ def _apart(scored: Sequence[tuple[float, Front]], taken: set[int], labels: Mappi
     return movers
 
 
-def _main_side(fronts: dict[str, list[Front]]) -> str:
+def _main_side(fronts: dict[str, list[Front]], in_rows: Mapping[str, Sequence[Front]]) -> str:
     """The side with most to open; the canonical front wins a tie."""
     prior = {"front": 0.2, "top": -0.2}
 
     def weight(facing: str) -> float:
         handled = sum(1.0 + f.area for f in fronts[facing] if _opens_by_handle(f))
         hollow = sum(0.8 if f.loose else 0.3 for f in fronts[facing] if _opens_by_place(f))
-        return handled + hollow + prior.get(facing, 0.0)
+        return handled + hollow + 0.8 * len(in_rows.get(facing, ())) + prior.get(facing, 0.0)
 
     return max(fronts, key=weight)
 
@@ -131,6 +172,8 @@ def _score(front: Front, main: bool, fused: bool) -> float:
     """0 for a front that stays, else how sure it moves."""
     if fused and front.framed < FRAMED and front.share > WHOLE:
         return 0.0
+    if front.share > _ALL and front.box.size[2] < _SHEET and not front.loose:
+        return 0.0  # a side of a housing, to which the others are joined
     if _opens_by_handle(front):
         return 0.9 if main else 0.6
     return 0.6 if main and not fused and _opens_by_place(front) else 0.0
@@ -143,25 +186,30 @@ def _opens_by_handle(front: Front) -> bool:
     if front.facing == "top":
         return _is_panel(front) and _closes_cavity(front)
     if front.boxed:
-        return front.walled >= 0.5 or front.hollow or bool(front.behind)
+        return front.walled >= 0.5 or (front.share < _MOST_OPEN and (front.hollow or bool(front.behind)))
     return _is_panel(front) and (front.backed >= ENCLOSED or front.framed >= FRAMED or _in_doorway(front))
 
 
 def _in_doorway(front: Front) -> bool:
     """A tall leaf between two posts through which one passes."""
-    return front.jambs and front.backed < OPEN and front.tall > TALL and front.share > MOST
+    framed = front.jambs or front.walled >= _DOORWAY  # by what stands beside it, or behind
+    return framed and front.backed < OPEN and front.tall > TALL and front.share > MOST
 
 
 def _opens_by_place(front: Front) -> bool:
     """Without a handle: a panel before a cavity, or an open box among walls."""
-    width, height = sorted(front.box.size[:2])
-    if front.share < LEAST_SHARE or height > SLAT * width:
+    if front.share < LEAST_SHARE or _like_slat(front):
         return False
     if front.boxed:
         return front.backed >= ENCLOSED and (
             bool(front.behind) or (front.hollow and max(front.walled, front.framed) >= 0.5)
         )
     return _is_panel(front) and _closes_cavity(front)
+
+
+def _like_slat(front: Front) -> bool:
+    width, height = sorted(front.box.size[:2])
+    return bool(height > SLAT * width)
 
 
 def _is_panel(front: Front) -> bool:

@@ -11,8 +11,7 @@ from simart_kit.arrays import FloatArray, IntArray, unit
 
 from .candidates import Candidate, Choice
 from .casting import first_met
-from .contact import Contacts, hanging_on
-from .fronts import TOUCH
+from .contact import TOUCH, Contacts, hanging_on
 from .movers import SHALLOWEST, Mover
 from .scene import Scene
 from .views import View

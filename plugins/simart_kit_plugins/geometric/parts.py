@@ -13,7 +13,9 @@ from simart_kit.segments import Segments, find_segments
 
 from .contact import Contacts
 from .controls import hand_controls
+from .inner_drawers import inner_drawers, with_fronts
 from .levers import with_levers
+from .lids import lids
 from .movers import Mover, doubtful_movers, front_movers
 from .naming import names
 from .open_leaves import open_leaves
@@ -21,6 +23,7 @@ from .racks import racks
 from .rotors import rotors
 from .rounds import collared, knobs, over_holes, wheels
 from .scene import Scene, make_scene
+from .seats import seats
 from .spray_arms import spray_arms
 
 if TYPE_CHECKING:
@@ -33,7 +36,19 @@ Finder = Callable[[Scene, Contacts, Set[int]], list[Mover]]
 """Finds movers among the pieces that are not taken yet."""
 
 # After the fronts; each has what those before it left.
-_FINDERS: tuple[Finder, ...] = (rotors, open_leaves, spray_arms, racks, wheels, knobs, collared, over_holes)
+_FINDERS: tuple[Finder, ...] = (
+    rotors,
+    open_leaves,
+    seats,
+    lids,
+    spray_arms,
+    racks,
+    inner_drawers,
+    wheels,
+    knobs,
+    collared,
+    over_holes,
+)
 
 
 def parts_of(mesh: Mesh, spec: Spec | None, max_parts: int, crease: float, node_hint: bool) -> Segmentation:
@@ -78,6 +93,7 @@ def _find(scene: Scene, segments: Segments, spec: Spec | None) -> list[Mover]:
             if not taken.intersection(mover.pieces):
                 found.append(mover)
                 taken.update(mover.pieces)
+    found = with_fronts(scene, found)
     if spec is not None:
         from .honouring import chosen_movers
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Set
+from collections.abc import Sequence, Set
 
 import numpy as np
 
@@ -15,7 +15,9 @@ from .scene import FACINGS, Box, Scene
 
 _ROUND = 0.03  # how far within the radius a corner still lies on the rim, as a share of it
 _LARGEST_GAP = np.deg2rad(50.0)  # between corners of the rim: an octagon is a coarse wheel, a hexagon a nut
-_TOGETHER = 4.0  # diameters from one knob to the next at most: those of drawers are farther apart
+_TOGETHER = 4.2  # diameters from one knob to the next at most: those of drawers are farther apart
+_LEVEL = 0.008  # of the object's diagonal, how far out of their plane the middles of knobs are at most
+_EQUAL, _TURNED = 0.015, 0.08  # by how much extents of equal discs vary, and of coarse ones as they turn
 _CONCENTRIC = 0.05  # of its width, how far a cap's middle is from its collar's at most
 _BUTTON = (0.008, 0.08)  # [m] width of a round button
 _MUSHROOM = 0.12  # [m] the same of one over a hole in the body: for a whole hand
@@ -75,21 +77,18 @@ def wheels(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
 
 def knobs(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
     """Three or more small discs alike, close together on one front, that are nobody's handle."""
-    groups: dict[tuple[float, float], list[int]] = {}
-    for piece, box in enumerate(scene.boxes):
-        if piece in taken or not 0.008 < box.size.max() < 0.08:
-            continue
-        if round_axis(scene.points_of(piece)) == 1:
-            key = (round(float(box.center[1]), 2), round(float(box.size[2]), 3))
-            groups.setdefault(key, []).append(piece)
+    found = [
+        piece
+        for piece, box in enumerate(scene.boxes)
+        if piece not in taken and 0.008 < box.size.max() < 0.08 and round_axis(scene.points_of(piece)) == 1
+    ]
     movers: list[Mover] = []
-    used = set(taken).union(*groups.values())
-    for (_, diameter), group in groups.items():
-        places = np.array([scene.boxes[piece].center[[0, 2]] for piece in group])
-        apart = np.linalg.norm(places[:, None] - places, axis=2) + np.diag([np.inf] * len(group))
-        near = apart.min(axis=1)
-        if len(group) < 3 or (near < diameter).any() or (near > _TOGETHER * diameter).any():
-            continue
+    used = set(taken).union(found)
+    # Of polygons the extent depends on how they are turned: what is no row of equal ones may be one yet.
+    rows = [group for group in _of_a_size(scene, found, _EQUAL) if _row(scene, group)]
+    left = [piece for piece in found if not any(piece in group for group in rows)]
+    rows += [group for group in _of_a_size(scene, left, _TURNED) if _row(scene, group)]
+    for group in rows:
         reason = (f"one of {len(group)} discs alike, close together",)
         for piece in group:
             cap = measure_cap(scene, (piece,))
@@ -97,6 +96,30 @@ def knobs(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
             used.update(on)
             movers.append(Mover((piece, *on), "knob", 0.5, reason))
     return movers
+
+
+def _of_a_size(scene: Scene, discs: Sequence[int], slack: float) -> list[list[int]]:
+    """Discs in one plane of one diameter, but for a share of it, the largest first."""
+    groups: list[list[int]] = []
+    for piece in sorted(discs, key=lambda piece: -scene.boxes[piece].size[2]):
+        box = scene.boxes[piece]
+        for group in groups:
+            largest = scene.boxes[group[0]]
+            level = abs(largest.center[1] - box.center[1]) < _LEVEL
+            if level and box.size[2] > (1 - slack) * largest.size[2]:
+                group.append(piece)
+                break
+        else:
+            groups.append([piece])
+    return groups
+
+
+def _row(scene: Scene, group: Sequence[int]) -> bool:
+    """Whether discs alike are three at least, next to each other, and not far apart."""
+    places = np.array([scene.boxes[piece].center[[0, 2]] for piece in group])
+    apart = np.linalg.norm(places[:, None] - places, axis=2) + np.diag([np.inf] * len(group))
+    near, diameter = apart.min(axis=1), scene.boxes[group[0]].size[2]
+    return len(group) >= 3 and not (near < diameter).any() and not (near > _TOGETHER * diameter).any()
 
 
 def collared(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:

@@ -11,7 +11,8 @@ from simart_kit.arrays import FloatArray
 from simart_kit.sweeping import Motion, Sweep
 
 from .candidates import Candidate, Choice
-from .fronts import Front, cast
+from .casting import cast
+from .fronts import Front
 from .scene import FACINGS, Box, Scene
 from .siblings import alike, same_plane_axes
 from .views import View

@@ -57,6 +57,16 @@ class Box:
         corners = np.stack([facing @ self.lower, facing @ self.upper])
         return Box(corners.min(axis=0), corners.max(axis=0))
 
+    def lies_in(self, other: Box, margin: float) -> bool:
+        """Whether the rectangle of its first two axes lies in that of another, or sticks out by `margin`."""
+        # One number after the other: it is asked of all pairs of pieces, and the first mostly tells.
+        return bool(
+            self.lower[0] >= other.lower[0] - margin
+            and self.upper[0] <= other.upper[0] + margin
+            and self.lower[1] >= other.lower[1] - margin
+            and self.upper[1] <= other.upper[1] + margin
+        )
+
     def overlap(self, other: Box, margin: float) -> bool:
         """Whether the boxes come within `margin` of each other."""
         return bool((self.lower - margin <= other.upper).all() and (other.lower - margin <= self.upper).all())

@@ -1,4 +1,4 @@
-"""Twins of fronts that open: congruent, in one row and one plane with them, seen from the same side."""
+"""Fronts that are alike: twins of such that open, and rows, in one plane and seen from the same side."""
 
 from __future__ import annotations
 
@@ -36,6 +36,20 @@ def twins(scene: Scene, found: Sequence[Front], fronts: Sequence[Front]) -> list
         if front.piece not in known
         and any(alike(scene, front, other) and _in_row(scene, front, other) for other in found)
     ]
+
+
+def rows(scene: Scene, fronts: Sequence[Front], count: int) -> list[list[Front]]:
+    """Groups of at least so many fronts that are alike and in one row or column with the first."""
+    left, found = list(fronts), list[list[Front]]()
+    while left:
+        first = left[0]
+        row = [
+            one for one in left if one is first or (alike(scene, one, first) and _in_row(scene, one, first))
+        ]
+        left = [one for one in left if all(one is not other for other in row)]
+        if len(row) >= count:
+            found.append(row)
+    return found
 
 
 def _in_row(scene: Scene, one: Front, other: Front) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,10 +54,10 @@ class View:
         return bool(depth > 0.3 * self.body.size[2] and depth > 0.3 * self.box.size[:2].min())
 
 
-def view_part(scene: Scene, part: int) -> View:
-    """See a part from the side where most of it shows."""
+def view_part(scene: Scene, part: int, sides: Sequence[str] = tuple(FACINGS)) -> View:
+    """See a part from that of some sides where most of it shows."""
     faces = scene.faces_of((part,))
-    facing = max(FACINGS, key=lambda name: _shown(scene, FACINGS[name], part))
+    facing = max(sides, key=lambda name: shown(scene, FACINGS[name], part))
     axes = FACINGS[facing]
     corners = scene.triangles[faces] @ axes.T
     front, ajar = _front_plane(scene, axes, faces, corners)
@@ -110,7 +111,7 @@ def cut(corners: FloatArray, level: float) -> FloatArray | None:
     return np.asarray((points.min(axis=0) + points.max(axis=0)) / 2)
 
 
-def _shown(scene: Scene, axes: FloatArray, part: int) -> float:
+def shown(scene: Scene, axes: FloatArray, part: int) -> float:
     """Area of a part's rectangle that is seen from outside."""
     box = scene.boxes[part].turned(axes)
     steps = (np.arange(8) + 0.5) / 8
