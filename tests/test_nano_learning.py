@@ -26,7 +26,7 @@ NAMES = ("cabinet", "drawer_chest", "laptop", "chair")
 def examples():
     """Four objects of each of four categories, seen in some way."""
     made = [generated(named(name, CATEGORIES), 3, k) for name in NAMES for k in range(4)]
-    return [stored(example(one, np.random.default_rng(k))) for k, one in enumerate(made)]
+    return [stored(example(one, np.random.default_rng(k), 0.3)) for k, one in enumerate(made)]
 
 
 def small(**changes):
@@ -136,7 +136,7 @@ def test_the_same_seed_gives_the_same_network():
 
 def test_objects_without_parts_have_a_finite_loss():
     still = GeneratedObject("chair", (MADE.bodies[0],))
-    batch = [stored(example(still, np.random.default_rng(0)))]
+    batch = [stored(example(still, np.random.default_rng(0), 0.3))]
     network = NanoNetwork(small(), 0)
     found = losses(network, network(batch_of(batch)), targets_of(batch, network.config))
     found.total.backward()

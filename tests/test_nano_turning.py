@@ -22,7 +22,7 @@ def matrix_of(quarters, mirrored):
 
 @pytest.fixture(scope="module")
 def some():
-    return [stored(example(MADE, np.random.default_rng(k))) for k in range(6)]
+    return [stored(example(MADE, np.random.default_rng(k), 0.3)) for k in range(6)]
 
 
 @pytest.mark.parametrize(("quarters", "mirrored"), VIEWS)

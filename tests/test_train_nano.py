@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -63,7 +64,7 @@ def test_a_pool_is_cut_into_files_and_only_missing_ones_are_made(tmp_path, objec
 
 def test_objects_of_a_pool_depend_on_their_number_alone(tmp_path, objects):
     (later,) = pool.shards(PLAN, tmp_path, pool.TRAIN)
-    later = pool.Shard(tmp_path / "x.npz", later.names, later.static_share, later.seed, later.stream, 5, 2)
+    later = replace(later, path=tmp_path / "x.npz", first=5, count=2)
     pool.make([later], 1, lambda *_: None)
     for one, other in zip(pool.read([later]), objects[5:7], strict=True):
         assert one.category == other.category

@@ -22,8 +22,8 @@ from .visibility import visible
 
 # Points of a cloud, about; pieces of a cloud at most, of solids and of skins.
 POINTS, MOST_PIECES, SUPERFACES = 1536, 160, 192
-# How often an object is one skin, has lost its inside, or has pieces fused and split.
-_SKIN, _HOLLOW, _MIXED = 0.3, 0.25, 0.4
+# How often a solid object has lost its inside, or has pieces fused and split.
+_HOLLOW, _MIXED = 0.25, 0.4
 _NOISE = 0.002
 
 
@@ -63,26 +63,34 @@ class Example:
     size: float
 
 
-def example(made: GeneratedObject, generator: np.random.Generator) -> Example:
-    """An example of an object, in a pose and look that the generator chooses."""
+def example(made: GeneratedObject, generator: np.random.Generator, skin_share: float) -> Example:
+    """An example of an object, in a pose and look that the generator chooses.
+
+    Args:
+        made: the object.
+        generator: of the choices.
+        skin_share: how often the object is one skin.
+    """
     corners = np.concatenate([body.triangles for body in made.bodies]).reshape(-1, 3)
     size = float(np.ptp(corners, axis=0).max())
     seen = placed(made, generator)
-    cloud, label = _cloud(seen, generator)
+    cloud, label = _cloud(seen, generator, skin_share)
     part = majority(label, cloud.piece, cloud.area, len(made.bodies), cloud.count)
     shown = np.bincount(part, minlength=len(made.bodies)) > 0
     parts = [_part(seen, number, cloud, part) if shown[number] else None for number in range(1, len(shown))]
     return Example(cloud, pieces_of(cloud), part, shown, tuple(parts), made.category, size)
 
 
-def _cloud(made: GeneratedObject, generator: np.random.Generator) -> tuple[Cloud, IntArray]:
+def _cloud(
+    made: GeneratedObject, generator: np.random.Generator, skin_share: float
+) -> tuple[Cloud, IntArray]:
     """The cloud of a placed object, and (N,) the body of each point."""
     triangles = np.concatenate([body.triangles for body in made.bodies])
     looks = [(surface, n) for n, body in enumerate(made.bodies) for surface in body.surfaces]
     counts = [len(surface.triangles) for surface, _ in looks]
     body = np.repeat([n for _, n in looks], counts)
     color = np.repeat([surface.look.color for surface, _ in looks], counts, axis=0) / 255
-    skin = generator.random() < _SKIN
+    skin = generator.random() < skin_share
     if skin:
         samples = sample_evenly(areas(triangles), 3 * POINTS, generator)
     else:

@@ -25,6 +25,7 @@ Run = Annotated[Path, typer.Option("--run", metavar="DIR", help="Folder of the r
 Objects = Annotated[int | None, typer.Option(min=1, metavar="N", help="Made-up objects to train on.")]
 Steps = Annotated[int | None, typer.Option(min=1, metavar="N", help="Steps of training.")]
 Batch = Annotated[int | None, typer.Option(min=1, metavar="N", help="Objects a step.")]
+SkinShare = Annotated[float | None, typer.Option(metavar="X", help="Share of objects that are one skin.")]
 HeldOut = Annotated[int | None, typer.Option(min=1, metavar="N", help="Objects to judge on.")]
 Rate = Annotated[float | None, typer.Option(metavar="X", help="Step size of AdamW.")]
 Start = Annotated[
@@ -49,6 +50,7 @@ def train_nano(
     steps: Steps = None,
     batch_size: Batch = None,
     held_out: HeldOut = None,
+    skin_share: SkinShare = None,
     learning_rate: Rate = None,
     start: Start = None,
     seed: Seed = None,
@@ -72,6 +74,7 @@ def train_nano(
         "steps": steps,
         "batch_size": batch_size,
         "held_out": held_out,
+        "skin_share": skin_share,
         "learning_rate": learning_rate,
         "start": str(start) if start else None,
         "seed": seed,

@@ -77,7 +77,7 @@ def optimiser_of(network: NanoNetwork, plan: TrainingPlan) -> AdamW:
         {"params": decayed, "weight_decay": plan.weight_decay},
         {"params": others, "weight_decay": 0.0},
     ]
-    optimiser = AdamW(groups, lr=plan.learning_rate)
+    optimiser = AdamW(groups, lr=plan.learning_rate, fused=True)
     for parameter in network.parameters():
         first, second = torch.zeros_like(parameter), torch.zeros_like(parameter)
         optimiser.state[parameter] = {"step": torch.tensor(0.0), "exp_avg": first, "exp_avg_sq": second}

@@ -34,6 +34,7 @@ class Shard:
         path: of the file.
         names: categories that it draws from.
         static_share: how many of its objects do not move.
+        skin_share: how many are one skin.
         seed: of the training.
         stream: what the objects are for.
         first, count: numbers of its objects.
@@ -42,6 +43,7 @@ class Shard:
     path: Path
     names: tuple[str, ...]
     static_share: float
+    skin_share: float
     seed: int
     stream: int
     first: int
@@ -68,6 +70,7 @@ def shards(plan: TrainingPlan, folder: Path, stream: int) -> list[Shard]:
             folder / f"{prefix}-{first:06d}.npz",
             wanted,
             plan.static_share,
+            plan.skin_share,
             plan.seed,
             stream,
             first,
@@ -119,7 +122,7 @@ def _object(shard: Shard, number: int) -> Stored:
     generator = np.random.default_rng(key)
     category = _drawn(shard, generator)
     made = ajar(category.make(Dice((*key, 1))), Dice((*key, 2)))
-    return stored(example(made, generator))
+    return stored(example(made, generator, shard.skin_share))
 
 
 def _drawn(shard: Shard, generator: np.random.Generator) -> Category:
