@@ -9,7 +9,7 @@ import trimesh
 from simart_kit.mesh import Mesh
 from simart_kit.testing.meshes import boxes_mesh
 
-from .furniture import CABINET, HIGH, INSET, Box, bar, box, carcass, joined, panel, turned
+from .furniture import BOARD, CABINET, HIGH, INSET, Box, bar, box, carcass, joined, panel, turned
 from .test_geometric import assert_hinge, found
 from .test_geometric_racks import DOOR, case
 
@@ -166,6 +166,15 @@ class TestFrontsOfLayers:
         result = found(joined(boxes_mesh([*CABINET, shelf, *self.drawer()]), self.BOX))
         assert result.kinds == {"drawer": "prismatic"}
         assert len(result.faces("drawer")) == 3 * 12 + len(self.BOX.faces)
+
+    def test_a_front_that_a_smaller_board_on_it_hides_opens_though_it_touches_its_case(self) -> None:
+        front = [
+            panel((-0.24, 0.24), -0.2 - BOARD, (0.01, 0.69)),
+            box((-0.2, 0.2), (-0.228, -0.218), (0.06, 0.64)),
+        ]
+        result = found([*CABINET, *front])
+        assert list(result.kinds.values()) == ["revolute"]
+        assert len(result.faces(next(iter(result.kinds)))) == 24
 
     def test_a_plate_with_a_handle_let_into_a_door_is_of_the_door(self) -> None:
         leaf = panel(INSET, -0.2, HIGH)

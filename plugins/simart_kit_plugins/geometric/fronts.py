@@ -23,6 +23,8 @@ VISIBLE = 0.7  # share of a front's rectangle that is seen from outside
 OPEN = 0.3  # share of rays straight back that meet something, below which one may pass behind a panel
 
 _LARGE = 0.25  # share of a panel's rectangle from which on a piece that lies on it is no handle
+_BOARD = 0.15  # thickness of a board, as a share of its width
+_WHOLE = 0.9  # share of a panel's rectangle that it fills
 _SMALLER = 0.95  # the same of a board that lies on a panel: a larger one is another panel
 _GRIPS = 0.15  # share of a panel's rectangle that what one takes hold of covers at most
 _AROUND = np.diag([-1.0, 1.0, -1.0])  # (u, v, w) as seen from the other side
@@ -177,9 +179,9 @@ def _inlays(boxes: list[Box], piece: int) -> tuple[int, ...]:
 def _layers(
     scene: Scene, axes: FloatArray, contacts: Contacts, boxes: list[Box], piece: int
 ) -> tuple[int, ...]:
-    """Inlays, and of a panel that is held by nothing else the boards that lie on it, which may hide it."""
+    """Inlays, and of a board without holes, or that nothing else holds, the boards on it."""
     inlays, panel = _inlays(boxes, piece), boxes[piece]
-    if not thin(panel):
+    if panel.size[2] > _BOARD * panel.size[:2].min():
         return inlays
     smaller = _SMALLER * np.prod(panel.size[:2])
     lying = tuple(
@@ -190,14 +192,22 @@ def _layers(
         and np.prod(boxes[i].size[:2]) < smaller
         and _flat(scene, axes, (i,)) > PANEL
     )
-    if not lying:
-        return inlays
+    if not lying or _covers(scene, axes, panel, piece):
+        return (*inlays, *lying)
     own = {piece, *inlays, *lying, *_handles(contacts, boxes, piece, inlays)}
     behind = hanging_behind(contacts, boxes, piece, tuple(own))
     if behind and is_drawer_box(scene, axes, boxes, piece, behind):
         own.update(behind)
     held = any(contacts.within(piece, i, LOOSE) for i in range(len(boxes)) if i not in own)
     return inlays if held else (*inlays, *lying)
+
+
+def _covers(scene: Scene, axes: FloatArray, panel: Box, piece: int) -> bool:
+    """Whether a panel fills its rectangle, as no frame does."""
+    origins = np.column_stack([grid(panel, 8, 0.9), np.full(64, panel.upper[2] + TOUCH)])
+    others = tuple(i for i in range(scene.count) if i != piece)
+    labels, _ = cast(scene, axes, origins, np.array([0.0, 0.0, -1.0]), others)
+    return float((labels >= 0).mean()) > _WHOLE
 
 
 def _carried(boxes: list[Box], piece: int) -> tuple[int, ...]:
