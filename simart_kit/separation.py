@@ -112,7 +112,8 @@ def stopped_by_shapes(asset: Asset) -> tuple[Overlap, ...]:
 
     Such as a door and the drawer above it, whose surfaces pass each other all the way. A pair whose surfaces
     stop one of its joints is none, as a rack and the closed door before it; but if shapes alone stop another
-    of its joints soon, as a door whose inside the rack's shapes touch, it is one: else one could not move.
+    of its joints soon, as a door whose inside the rack's shapes touch, it is one: else one could not move. So
+    is one whose surfaces pass once the other part is out of the way, where shapes alone stop it even then.
 
     Args:
         asset: with collision shapes.
@@ -131,7 +132,9 @@ def stopped_by_shapes(asset: Asset) -> tuple[Overlap, ...]:
         soon = met([share * end for end in span(joint) for share in _SOON]) if deep else {}
         for pair, depth in deep.items():
             found[pair] = max(depth, found.get(pair, 0.0))
-            if not _free(asset, joint, pair, moved):
+            if not _free(asset, joint, pair, moved) and not _stopped_when_open(
+                asset, shapes, joint, pair, moved
+            ):
                 stopped.add(_rigid(bodies, pair))
             elif soon.get(pair, 0.0) > STUCK and pair not in at_rest:
                 stuck.add(_rigid(bodies, pair))
@@ -143,12 +146,33 @@ def _rigid(bodies: IntArray, pair: Pair) -> frozenset[int]:
     return frozenset(int(bodies[part]) for part in pair)
 
 
-def _free(asset: Asset, joint: Joint, pair: Pair, moved: Collection[int]) -> bool:
+def _free(
+    asset: Asset, joint: Joint, pair: Pair, moved: Collection[int], positions: Positions | None = None
+) -> bool:
     """Whether the surface of one of a pair, which the joint moves, passes that of the other all the way."""
     mine, other = sorted(pair, key=lambda part: part not in moved)
-    faces = [asset.mesh.faces[asset.face_part == part] for part in (mine, other)]
+    triangles = [asset.mesh.triangles[asset.face_part == part].reshape(-1, 3) for part in (mine, other)]
+    posed_T_rest = rest_to_posed(asset, positions or {})[asset.parts[other].name]
+    triangles[1] = triangles[1] @ posed_T_rest[:3, :3].T + posed_T_rest[:3, 3]
+    faces = [np.arange(len(corners)).reshape(-1, 3) for corners in triangles]
     limited = replace(joint, kind="revolute" if joint.turns else joint.kind, limits=Limits(*span(joint)))
-    return free_range(limited, Sweep(asset.mesh.vertices, *faces), _STOPS) == span(joint)
+    sweep = Sweep(np.concatenate(triangles), faces[0], faces[1] + len(triangles[0]))
+    return free_range(limited, sweep, _STOPS) == span(joint)
+
+
+def _stopped_when_open(
+    asset: Asset, shapes: Sequence[Sequence[Convex]], joint: Joint, pair: Pair, moved: Collection[int]
+) -> bool:
+    """Whether shapes alone stop a joint at the other of a pair that is as open as it goes."""
+    mine, other = sorted(pair, key=lambda part: part not in moved)
+    own = asset.joint_to(asset.parts[other].name)
+    if own is None or span(own) == (0.0, 0.0):
+        return False
+    positions = {own.name: max(span(own), key=abs)}
+    posed = _posed(shapes, asset, positions)
+    met = _met(posed, joint, [mine], [other], _stops(span(joint), _NEAR_REST))
+    deep = met.get((min(pair), max(pair)), 0.0) > STUCK
+    return deep and _free(asset, joint, pair, moved, positions)
 
 
 def _met(

@@ -93,6 +93,21 @@ def under(start: float) -> sk.Asset:
     return sk.Asset("under", boxes_mesh([*boxes, above]), faces, parts, joints)
 
 
+def behind(lowest: float) -> sk.Asset:
+    """A drawer behind a shutter that slides up by 2; its shape reaches down to `lowest`, its surface to 0."""
+    boxes = [((0, 0, -3), (1, 1, -2)), ((0, 0, 0), (1, 1, 1)), ((1.1, 0, 0), (1.2, 1, 2))]
+    parts = (
+        sk.Part("body", collision=(block(*boxes[0]),)),
+        sk.Part("drawer", collision=(block(*boxes[1]),)),
+        sk.Part("shutter", collision=(block((1.1, 0, lowest), (1.2, 1, 2)),)),
+    )
+    joints = (
+        sk.Joint("slide", "prismatic", "body", "drawer", axis=(1, 0, 0), limits=sk.Limits(0.0, 0.5)),
+        sk.Joint("up", "prismatic", "body", "shutter", axis=(0, 0, 1), limits=sk.Limits(0.0, 2.0)),
+    )
+    return sk.Asset("behind", boxes_mesh(boxes), np.repeat([0, 1, 2], 12), parts, joints)
+
+
 UNIT = block((0, 0, 0), (1, 1, 1))
 
 
@@ -224,6 +239,10 @@ class TestOverlaps:
             asset = under(start)
             assert {(o.one, o.other) for o in stopped_by_shapes(asset)} == met
             assert overlaps(asset) == overlaps_on_the_way(asset) == ()
+
+    def test_what_shapes_alone_stop_once_the_other_is_out_of_the_way_passes_it(self) -> None:
+        for lowest, met in ((-1.5, {("drawer", "shutter")}), (0.0, set())):
+            assert {(o.one, o.other) for o in stopped_by_shapes(behind(lowest))} == met
 
 
 class TestSeparated:
