@@ -33,9 +33,9 @@ Looks = Callable[[Path, Floats], dict[str, Look]]
 
 NAMES = (
     "example",
-    pytest.param("painted_wooden_cabinet", marks=needs_data),
-    pytest.param("painted_wooden_cabinet_02", marks=needs_data),
-    pytest.param("painted_wooden_stool", marks=needs_data),
+    pytest.param("painted_wooden_cabinet", marks=[needs_data, pytest.mark.slow]),
+    pytest.param("painted_wooden_cabinet_02", marks=[needs_data, pytest.mark.slow]),
+    pytest.param("painted_wooden_stool", marks=[needs_data, pytest.mark.slow]),
 )
 FORMATS: dict[str, Looks] = {"urdf": urdf_looks, "mjcf": mjcf_looks, "usd": usd_looks}
 POSES = 10

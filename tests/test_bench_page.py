@@ -25,6 +25,8 @@ from .browser import needs_browser, started
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
+pytestmark = pytest.mark.slow
+
 DASH = "\N{EN DASH}"
 HOSTILE = "<script>window.hit=1"
 ERROR = "<img src=x onerror=window.hit=1> broke </script><script>window.hit=1</script>"

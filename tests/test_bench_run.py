@@ -19,6 +19,8 @@ from simart_kit.errors import BadInputError, OutputError
 
 from .bench_runs import converted, plan, write_home
 
+pytestmark = pytest.mark.slow
+
 PERFECT = {"type": 1.0, "axis": 0.0, "origin": 0.0, "iou": 1.0, "f1": 1.0}
 
 
@@ -90,7 +92,6 @@ def test_an_object_that_never_ends_is_given_up(tmp_path):
     assert (row.status, row.error, row.scores["iou"]) == ("failed", "took longer than 1 s", 0.0)
 
 
-@pytest.mark.slow
 def test_a_run_gone_on_with_does_what_was_left_and_finds_the_same(home):
     run(plan(home, only=("cabinet_a",)))
     assert left_to_do(plan(home)) == 2
@@ -106,7 +107,6 @@ def test_a_run_gone_on_with_does_what_was_left_and_finds_the_same(home):
     assert one == two
 
 
-@pytest.mark.slow
 def test_a_damaged_row_is_done_again(home):
     run(plan(home))
     row = home / "run" / "objects" / "block" / "row.json"
@@ -149,7 +149,6 @@ def test_a_folder_of_other_settings_is_refused(home, changed, told):
         run(changed(home))
 
 
-@pytest.mark.slow
 def test_a_folder_that_is_no_run_or_is_in_use_is_refused(home):
     (home / "mine").mkdir()
     (home / "mine" / "thesis.txt").write_text("years of work")

@@ -181,7 +181,7 @@ def test_a_mistake_is_one_line_and_exit_code_2(home, capfd, arguments, told):
 @pytest.mark.parametrize(
     "sent",
     [
-        pytest.param(signal.SIGINT, id="ctrl-c"),
+        pytest.param(signal.SIGINT, id="ctrl-c", marks=pytest.mark.slow),
         pytest.param(signal.SIGTERM, id="kill", marks=pytest.mark.slow),
     ],
 )
