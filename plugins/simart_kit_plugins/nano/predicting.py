@@ -29,7 +29,7 @@ _WORTH = 0.3
 # Share of the surface that a part which lies loose may have.
 _CARRIED = 0.5
 # An object of a known category is recognised from this chance on; less of its parts' sureness is enough then.
-_KNOWN, _EASE = 0.85, 1 / 3
+_KNOWN, _EASE = 0.98, 1 / 4
 
 
 @dataclass(frozen=True, eq=False)

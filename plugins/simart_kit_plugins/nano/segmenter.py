@@ -41,11 +41,11 @@ class Nano(Segmenter):
             default="", description="Folder of the weights, such as `train nano` writes; the shipped ones."
         )
         least: float = Field(
-            default=0.6,
+            default=0.85,
             ge=0,
             le=1,
-            description="Parts less sure than this stay with the body; a third of it is enough in an object "
-            "that is recognised.",
+            description="Parts less sure than this stay with the body; a quarter of it is enough in an "
+            "object that is recognised.",
         )
         votes: int = Field(default=4, ge=1, le=8, description="From how many sides it is looked at.")
         pool: bool = Field(default=True, description="Add what `geometric` finds, and keep what can move.")
