@@ -58,6 +58,21 @@ def test_a_stuck_part_that_only_the_network_finds_is_left_out():
     assert len(pooled(MESH, [], [proposal([3], axis=(0.0, 0.0, 1.0))])) == 1
 
 
+def test_what_slides_may_wait_behind_another_mover_as_a_rack_behind_a_door():
+    behind, before = proposal([1], "rack"), proposal([2], "door", axis=(0.0, 0.0, 1.0))
+    assert [p.guess.label for p in pooled(MESH, [before], [behind])] == ["door", "rack"]
+    # The body does not get out of the way.
+    assert pooled(MESH, [], [behind]) == []
+
+
+def test_drawers_that_are_taken_for_one_are_several():
+    lump, lid, drawer = proposal([1, 3], "lump"), proposal([3], "upper"), proposal([1, 2], "lower")
+    found = pooled(MESH, [proposal([1, 2, 3], "lump")], [drawer, lid])
+    assert [p.guess.label for p in found] == ["lower", "upper"]
+    # One within another, such as a knob on a drawer, does not make it two.
+    assert [p.guess.label for p in pooled(MESH, [lump], [proposal([1])])] == ["lump"]
+
+
 def test_a_carrier_is_found_again_among_those_kept():
     drawer, knob = proposal([1], "drawer"), proposal([2], "knob", parent=0)
     found = pooled(MESH, [proposal([1], "front")], [drawer, knob])

@@ -14,10 +14,12 @@ from .proposals import Proposal, overlap
 
 if TYPE_CHECKING:
     from simart_kit import Joint, Mesh
-    from simart_kit.arrays import BoolArray
+    from simart_kit.arrays import BoolArray, FloatArray
 
 # Two proposals are of one part from this overlap on; one that loses more than this share is dropped.
 _SAME, _LOST = 0.5, 0.3
+# Of drawers lumped together each has this share of the lump at least, and this share of it lies there.
+_SHARE, _WITHIN = 0.2, 0.75
 # Joints of one kind whose axes are closer than this are not compared [cosine].
 _ALIKE = np.cos(np.deg2rad(15.0))
 # A joint that can go less than this share of its way is stuck.
@@ -28,7 +30,9 @@ def pooled(mesh: Mesh, first: Sequence[Proposal], second: Sequence[Proposal]) ->
     """All that the first proposes, and what the second adds to it.
 
     What both find is there once, as the first says, but with the second's joint if the first's is stuck and
-    the second's is not. What only the second finds must be free to move, and must not be claimed already.
+    the second's is not. What the first takes for one and the second for several that slide is several. What
+    only the second finds must be free to move, and must not be claimed already; what slides may wait behind
+    others that move, as drawers and racks behind doors do.
 
     Args:
         mesh: of the faces.
@@ -36,8 +40,9 @@ def pooled(mesh: Mesh, first: Sequence[Proposal], second: Sequence[Proposal]) ->
         second: proposals, the surest first.
     """
     areas = mesh.face_areas
-    kept = list(first)
-    place = {("first", k): k for k in range(len(first))}
+    single = [k for k, proposal in enumerate(first) if not _lumped(areas, proposal, second)]
+    kept = [first[k] for k in single]
+    place = {("first", k): row for row, k in enumerate(single)}
     taken = np.zeros(len(areas), dtype=np.bool_)
     for proposal in kept:
         taken |= proposal.faces
@@ -50,7 +55,7 @@ def pooled(mesh: Mesh, first: Sequence[Proposal], second: Sequence[Proposal]) ->
         free = proposal.faces & ~taken
         if areas[free].sum() < (1 - _LOST) * areas[proposal.faces].sum() or not free.any():
             continue
-        if proposal.joint.limits and _stuck(proposal.joint, _sweep(mesh, free)):
+        if _held(mesh, proposal.joint, free, taken):
             continue
         place["second", k] = len(kept)
         kept.append(replace(proposal, faces=free))
@@ -58,19 +63,36 @@ def pooled(mesh: Mesh, first: Sequence[Proposal], second: Sequence[Proposal]) ->
     return _carried(kept, place, {"first": first, "second": second})
 
 
+def _held(mesh: Mesh, joint: Joint, faces: BoolArray, moving: BoolArray) -> bool:
+    """Whether a part cannot move. One that slides may wait behind what moves, but not where all does."""
+    others = ~faces & ~moving if joint.kind == "prismatic" else ~faces
+    return joint.limits is not None and (not others.any() or _stuck(joint, _sweep(mesh, faces, others)))
+
+
+def _lumped(areas: FloatArray, one: Proposal, others: Sequence[Proposal]) -> bool:
+    """Whether a proposal is several parts that slide, such as the drawers of a stack, taken for one."""
+    shares = [
+        float(areas[other.faces & one.faces].sum() / areas[one.faces].sum())
+        for other in others
+        if other.joint.kind == "prismatic"
+        and areas[other.faces & one.faces].sum() >= _WITHIN * areas[other.faces].sum()
+    ]
+    return sum(share >= _SHARE for share in shares) > 1 and sum(shares) >= _SAME
+
+
 def _freer(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
     """The first proposal, with the other's joint where its own is stuck and the other's is not."""
     alike = one.joint.kind == other.joint.kind and np.dot(one.joint.axis, other.joint.axis) > _ALIKE
     if alike or one.joint.limits is None:
         return one
-    sweep = _sweep(mesh, one.faces)
+    sweep = _sweep(mesh, one.faces, ~one.faces)
     if _stuck(one.joint, sweep) and not _stuck(other.joint, sweep):
         return replace(one, joint=other.joint)
     return one
 
 
-def _sweep(mesh: Mesh, faces: BoolArray) -> Sweep:
-    return Sweep(mesh.vertices, mesh.faces[faces], mesh.faces[~faces])
+def _sweep(mesh: Mesh, faces: BoolArray, against: BoolArray) -> Sweep:
+    return Sweep(mesh.vertices, mesh.faces[faces], mesh.faces[against])
 
 
 def _stuck(joint: Joint, sweep: Sweep) -> bool:
