@@ -67,6 +67,10 @@ def test_blades_turn_with_their_hub_about_its_axis_without_end(count):
     assert (found[:36] == 0).all()  # foot, pole, motor
 
 
+def test_narrow_blades_turn_where_they_are_thin_as_those_of_aeroplanes_are():
+    assert joints_found(mesh_of(*stand(), *blades(4, size=(0.02, 0.002, 0.2))))[0] == {"rotor"}
+
+
 @pytest.mark.parametrize(
     "others",
     [

@@ -23,10 +23,11 @@ _EVEN = 0.1  # how much angles between them differ, as a share of the mean
 _ROOT = 0.45  # share of its reach from the axis at which a blade begins, at most: it comes from the hub
 _FLAT = 0.5  # a blade's smallest extent, as a share of its middle one
 _WIDE = 0.25  # least of its middle extent, as a share of its largest: spokes and arms are narrower
+_NARROW, _THIN = 0.06, 0.2  # the same of one that is no thicker than this share of its middle extent
 _FULL = 0.4  # least of a blade's area, as a share of both sides of its outline's box: bent wires have less
 _WIRE = 0.25  # of a blade's area, at most, that a guard's wires have: they may touch where they should not
 _TOUCH = 0.003  # of the object's diagonal: what is nearer touches
-_CLEAR = 0.02  # of the object's diagonal, how far from the ground
+_CLEAR = 0.02  # of the object's diagonal, how far from the ground what lies level is: it has no feet
 _HUB = 0.5  # share of the blades' reach that the hub has, at most
 _OFF = 0.05  # share of their reach that the hub's middle is beside the axis, at most
 
@@ -99,11 +100,12 @@ def _axis(scene: Scene, group: Sequence[_Blade]) -> Line | None:
     for blade in group:
         reach = _reach(blade.points, (middle, rows[2]))
         side, thick, wide, long = blade.measures
-        shaped = thick < _FLAT * wide and wide > _WIDE * long and side**2 > _FULL * 2 * wide * long
+        shaped = thick < _FLAT * wide and wide > (_NARROW if thick < _THIN * wide else _WIDE) * long
         if (
             not shaped
+            or side**2 < _FULL * 2 * wide * long
             or reach.min() > _ROOT * reach.max()
-            or blade.points[:, 2].min() < scene.box.lower[2] + _CLEAR
+            or blade.points[:, 2].min() < scene.box.lower[2] + max(_CLEAR * abs(rows[2][2]), _TOUCH)
         ):
             return None
     return middle, rows[2]
