@@ -1,5 +1,7 @@
 """Proposals of geometry and network made one set, and votes from several sides."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
@@ -43,6 +45,14 @@ def test_a_joint_that_is_stuck_gives_way_to_one_that_is_free():
     into_the_body = (0.0, 1.0, 0.0)
     (found,) = pooled(MESH, [proposal([1, 2], axis=into_the_body)], [proposal([1, 2])])
     assert found.joint.axis == (0.0, -1.0, 0.0)
+
+
+def test_a_joint_gives_way_to_one_that_is_much_surer():
+    unsure, sure = proposal([3], "lid", axis=(1.0, 0.0, 0.0)), proposal([3], "lid", axis=(0.0, 0.0, 1.0))
+    for confidence, kept in ((0.5, sure), (0.9, unsure)):
+        first = replace(unsure, joint=replace(unsure.joint, confidence=confidence))
+        (found,) = pooled(MESH, [first], [sure])
+        assert found.joint.axis == kept.joint.axis
 
 
 def test_what_either_finds_alone_is_kept_and_no_face_is_claimed_twice():

@@ -22,6 +22,8 @@ _SAME, _LOST = 0.5, 0.3
 _SHARE, _WITHIN = 0.2, 0.75
 # Joints of one kind whose axes are closer than this are not compared [cosine].
 _ALIKE = np.cos(np.deg2rad(15.0))
+# How much surer of its joint the second has to be.
+_SURER = 0.25
 # A joint that can go less than this share of its way is stuck.
 _FREE, _STEPS = 0.25, 8
 
@@ -29,10 +31,10 @@ _FREE, _STEPS = 0.25, 8
 def pooled(mesh: Mesh, first: Sequence[Proposal], second: Sequence[Proposal]) -> list[Proposal]:
     """All that the first proposes, and what the second adds to it.
 
-    What both find is there once, as the first says, but with the second's joint if the first's is stuck and
-    the second's is not. What the first takes for one and the second for several that slide is several. What
-    only the second finds must be free to move, and must not be claimed already; what slides may wait behind
-    others that move, as drawers and racks behind doors do.
+    What both find is there once, as the first says, but with the second's joint if that is much surer, or
+    the first's is stuck and the second's is not. What the first takes for one, and the second for several
+    that slide, is several. What only the second finds must be free to move, and must not be claimed already;
+    what slides may wait behind others that move, as drawers and racks behind doors do.
 
     Args:
         mesh: of the faces.
@@ -50,7 +52,7 @@ def pooled(mesh: Mesh, first: Sequence[Proposal], second: Sequence[Proposal]) ->
         twin = next((r for r, p in enumerate(kept) if overlap(mesh, p.faces, proposal.faces) >= _SAME), None)
         if twin is not None:
             place["second", k] = twin
-            kept[twin] = _freer(mesh, kept[twin], proposal)
+            kept[twin] = _better(mesh, kept[twin], proposal)
             continue
         free = proposal.faces & ~taken
         if areas[free].sum() < (1 - _LOST) * areas[proposal.faces].sum() or not free.any():
@@ -80,8 +82,10 @@ def _lumped(areas: FloatArray, one: Proposal, others: Sequence[Proposal]) -> boo
     return sum(share >= _SHARE for share in shares) > 1 and sum(shares) >= _SAME
 
 
-def _freer(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
-    """The first proposal, with the other's joint where its own is stuck and the other's is not."""
+def _better(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
+    """The first proposal, with the other's joint where that is much surer, or its own is stuck alone."""
+    if other.joint.confidence > one.joint.confidence + _SURER:
+        return replace(one, joint=other.joint)
     alike = one.joint.kind == other.joint.kind and np.dot(one.joint.axis, other.joint.axis) > _ALIKE
     if alike or one.joint.limits is None:
         return one

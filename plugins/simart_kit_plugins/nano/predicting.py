@@ -29,7 +29,9 @@ _WORTH = 0.3
 # Share of the surface that a part which lies loose may have.
 _CARRIED = 0.5
 # An object of a known category is recognised from this chance on; less of its parts' sureness is enough then.
-_KNOWN, _EASE = 0.98, 1 / 4
+_KNOWN, _EASE = 0.99, 1 / 4
+# So it is from this chance on if it is no more torn than this about what moves, on average over the pieces.
+_LIKELY, _TORN = 0.8, 0.03
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,13 +108,26 @@ def predict(network: ArrayNetwork, cloud: Cloud, least: float, votes: int = VOTE
     names = network.config.categories
     best = int(said.category.argmax())
     name = names[best - 1] if best else ""
-    recognised = bool(best and said.category[best] >= _KNOWN)
+    recognised = bool(best) and is_known(float(said.category[best]), said.moves)
     least *= _EASE if recognised else 1.0
     parts = _sure(every, least)
     chances = dict(zip(names, said.category[1:].tolist(), strict=True))
     doubtful = tuple(part for part in every if part.certainty < least)
     piece_part = piece_parts([part.pieces for part in parts], cloud.count)
     return Prediction(parts, doubtful, piece_part, said.moves, name, recognised, chances, said.size)
+
+
+def is_known(chance: float, moves: FloatArray) -> bool:
+    """Whether an object is one of those that the network knows.
+
+    Of many a real object it is sure what that is and yet torn about what moves: it has seen none like it.
+
+    Args:
+        chance: of its category.
+        moves: (S,) chance of each piece to be of a moving part.
+    """
+    torn = float(np.minimum(moves, 1 - moves).mean())
+    return chance >= _KNOWN or (chance >= _LIKELY and torn <= _TORN)
 
 
 def plausible(part: PredictedPart, area: FloatArray) -> PredictedPart:

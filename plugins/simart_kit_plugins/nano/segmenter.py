@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _SKIN = "the surface is one fused skin, in which parts are often missed or wrong: look at it"
 # Nothing moves from this chance on that the object is of a category of which nothing does.
-_STILL = 0.9
+_STILL = 0.95
 
 
 class Nano(Segmenter):
@@ -41,7 +41,7 @@ class Nano(Segmenter):
             default="", description="Folder of the weights, such as `train nano` writes; the shipped ones."
         )
         least: float = Field(
-            default=0.85,
+            default=0.9,
             ge=0,
             le=1,
             description="Parts less sure than this stay with the body; a quarter of it is enough in an "
