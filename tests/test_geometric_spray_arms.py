@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+import trimesh
+from trimesh.transformations import rotation_matrix
 
 from simart_kit.mesh import Mesh
 from simart_kit.testing.meshes import boxes_mesh
@@ -50,6 +52,16 @@ def test_one_below_a_rack_goes_with_it() -> None:
 )
 def test_other_bars_stay(inside: tuple[Box, ...]) -> None:
     assert found(washer(*inside)).kinds == {"door": "revolute"}
+
+
+def test_the_ribs_of_a_drum_stay() -> None:
+    drum = trimesh.creation.annulus(0.115, 0.12, 0.3, transform=rotation_matrix(np.pi / 2, (1, 0, 0)))
+    drum.apply_translation((0, 0, 0.25))
+    shell = Mesh(np.array(drum.vertices), np.array(drum.faces, dtype=np.int32))
+    assert (
+        "spray_arm"
+        not in found(joined(washer(box((0.1, 0.1145), (-0.05, 0.05), (0.245, 0.255))), shell)).kinds
+    )
 
 
 def test_a_bar_on_a_post_without_walls_around_stays() -> None:

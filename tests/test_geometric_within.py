@@ -43,6 +43,14 @@ def solid(shape: trimesh.Trimesh) -> Mesh:
     return Mesh(np.asarray(shape.vertices), np.asarray(shape.faces, dtype=np.int32))
 
 
+@pytest.mark.parametrize(("places", "moves"), [((0.0,), True), ((-0.2, -0.1, 0.0, 0.1, 0.2), False)])
+def test_a_strip_with_many_things_on_it_is_for_controls(places: tuple[float, ...], moves: bool) -> None:
+    strip = box((-0.24, 0.24), (-0.272, -0.252), (0.4, 0.49))
+    knobs = [box((x - 0.02, x + 0.02), (-0.3, -0.272), (0.425, 0.465)) for x in places]
+    result = found(joined(case(), boxes_mesh([strip, *knobs])))
+    assert bool({"door", "drawer"} & result.kinds.keys()) is moves
+
+
 class TestDrawersWithin:
     @pytest.mark.parametrize("quarter", range(4))
     def test_a_tub_between_the_walls_of_a_cavity_slides_out_of_it(self, quarter: int) -> None:

@@ -53,6 +53,7 @@ class Front:
         share: of the side's whole rectangle.
         tall: its height as a share of the whole's.
         handles_middle: (3,) middle of all handles, or of the piece without any.
+        grips: how many handles there are that do not touch each other.
     """
 
     piece: int
@@ -73,6 +74,7 @@ class Front:
     share: float
     tall: float
     handles_middle: FloatArray
+    grips: int
 
     @property
     def pieces(self) -> tuple[int, ...]:
@@ -150,6 +152,7 @@ def _front(
         share=float(np.prod(box.size[:2]) / np.prod(whole.size[:2])),
         tall=float(box.size[1] / whole.size[1]),
         handles_middle=np.mean([boxes[i].center for i in handles or (piece,)], axis=0),
+        grips=_separate(contacts, boxes, handles),
     )
 
 
@@ -260,6 +263,15 @@ def _grips(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int, 
         return ()
     others = [i for i in range(len(boxes)) if i not in (piece, *inlays, *handles)]
     return tuple(i for i in handles if not any(contacts.within(i, j, HOLDS) for j in others))
+
+
+def _separate(contacts: Contacts, boxes: list[Box], handles: tuple[int, ...]) -> int:
+    """How many groups there are of handles that touch each other, as a grip does its posts."""
+    left, groups = list(handles), 0
+    while left:
+        on = hanging_on({left[0]}, left, lambda i, j: meet(contacts, boxes, i, j))
+        left, groups = [i for i in left if i not in on], groups + 1
+    return groups
 
 
 def _glazing_bar(box: Box, panel: Box) -> bool:

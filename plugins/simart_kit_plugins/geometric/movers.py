@@ -28,6 +28,7 @@ _SHEET = 1e-4  # what is thinner has no back of its own
 _MOST_OPEN = 0.5  # share of its side that a drawer which stands open takes: larger boxes hold the rest
 _DOORWAY = 0.7  # share of rays to the sides that meet the frame behind a leaf: there is no sill
 _ROW = 3  # so many alike are a row
+_CONTROLS, _STRIP = 4, 2.5  # so many things on a strip so many times as wide as high are controls
 _TWIN = 0.5  # how sure a front is of which only its twin opens by itself
 _BARE = 0.6  # how sure a front is that only the parting of a skin tells
 _DOUBTFUL = 0.3  # how sure a front is that takes its whole side, and for which nothing else speaks
@@ -174,9 +175,17 @@ def _score(front: Front, main: bool, fused: bool) -> float:
         return 0.0
     if front.share > _ALL and front.box.size[2] < _SHEET and not front.loose:
         return 0.0  # a side of a housing, to which the others are joined
+    if _bears_controls(front):
+        return 0.0
     if _opens_by_handle(front):
         return 0.9 if main else 0.6
     return 0.6 if main and not fused and _opens_by_place(front) else 0.0
+
+
+def _bears_controls(front: Front) -> bool:
+    """A strip with more on it than one takes hold of: knobs and buttons, as above a washer's door."""
+    width, height = front.box.size[:2]
+    return not front.boxed and front.grips >= _CONTROLS and bool(width > _STRIP * height)
 
 
 def _opens_by_handle(front: Front) -> bool:

@@ -33,8 +33,7 @@ def spray_arms(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]
             continue
         holders = contacts.touching(piece, _TOUCH)
         held = bool(holders) and _held_at_middle(scene, box, holders)
-        passed = [piece, *(other for other in holders if other != body)]
-        if held and _in_cavity(scene, box, body) and _free(scene, box, passed):
+        if held and _in_cavity(scene, box, body) and _free(scene, box, piece):
             movers.append(Mover((piece,), "spray_arm", 0.5, ("a level bar in a cavity, held at its middle",)))
     return movers
 
@@ -75,13 +74,15 @@ def _in_cavity(scene: Scene, bar: Box, body: int) -> bool:
     return bool(walled and bar.size.max() > _SHORTEST * min(ways[:2].sum(), ways[2:4].sum()))
 
 
-def _free(scene: Scene, box: Box, passing: Sequence[int]) -> bool:
-    """Whether nothing but what it passes stands where a bar comes by as it turns all around."""
+def _free(scene: Scene, box: Box, piece: int) -> bool:
+    """Whether nothing stands where a bar comes by as it turns all around: a rib of a drum meets its wall."""
     heights = np.linspace(box.lower[2], box.upper[2], 5)[1:-1]
-    origins = np.column_stack([np.tile(box.center[:2], (len(heights), 1)), heights])
+    middle = np.column_stack([np.tile(box.center[:2], (len(heights), 1)), heights])
     angles = 2 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
-    ways = [_nearest(scene, origins, np.array([np.cos(a), np.sin(a), 0.0]), passing) for a in angles]
-    return bool(min(ways) > _SKIMS * box.size.max() / 2)
+    ways = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(_DIRECTIONS)])
+    held = _HELD * box.size.max()  # nearer to its axis is what holds it
+    met = [held + _nearest(scene, middle + held * way, way, [piece]) for way in ways]
+    return bool(min(met) > _SKIMS * box.size.max() / 2)
 
 
 def _nearest(
