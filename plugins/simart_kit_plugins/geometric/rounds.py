@@ -86,6 +86,11 @@ def knobs(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
     used = set(taken).union(found)
     # Of polygons the extent depends on how they are turned: what is no row of equal ones may be one yet.
     rows = [group for group in _of_a_size(scene, found, _EQUAL) if _row(scene, group)]
+    for piece in [piece for piece in found if not any(piece in group for group in rows)]:
+        for group in rows:
+            if _alike(scene, piece, group[0], _TURNED) and _row(scene, [*group, piece]):
+                group.append(piece)
+                break
     left = [piece for piece in found if not any(piece in group for group in rows)]
     rows += [group for group in _of_a_size(scene, left, _TURNED) if _row(scene, group)]
     for group in rows:
@@ -102,16 +107,20 @@ def _of_a_size(scene: Scene, discs: Sequence[int], slack: float) -> list[list[in
     """Discs in one plane of one diameter, but for a share of it, the largest first."""
     groups: list[list[int]] = []
     for piece in sorted(discs, key=lambda piece: -scene.boxes[piece].size[2]):
-        box = scene.boxes[piece]
         for group in groups:
-            largest = scene.boxes[group[0]]
-            level = abs(largest.center[1] - box.center[1]) < _LEVEL
-            if level and box.size[2] > (1 - slack) * largest.size[2]:
+            if _alike(scene, piece, group[0], slack):
                 group.append(piece)
                 break
         else:
             groups.append([piece])
     return groups
+
+
+def _alike(scene: Scene, one: int, other: int, slack: float) -> bool:
+    """Whether two discs lie in one plane and are of one diameter, but for a share of it."""
+    box, its = scene.boxes[one], scene.boxes[other]
+    small, large = sorted((box.size[2], its.size[2]))
+    return bool(abs(its.center[1] - box.center[1]) < _LEVEL and small > (1 - slack) * large)
 
 
 def _row(scene: Scene, group: Sequence[int]) -> bool:
