@@ -16,6 +16,9 @@ from ...shapes.placing import Y, at, moved, pointed, rotation, turned
 from ...shapes.primitives import Pieces, box, cylinder, open_box, rod, tube
 from .objects import Body, Look, Motion, Surface, hinge, slide, spin, surface
 
+PAD = 0.0006
+"""Thickness of a button that is only printed on: one that can be pressed stands out [m]."""
+
 Parts = Sequence[tuple[Pieces, Look]]
 """Pieces with what they are made of; those without any piece are left out."""
 

@@ -158,11 +158,11 @@ def _store(dice: Dice, kit: Assembly, make: _Range, high: float) -> None:
 
 
 def _controls(dice: Dice, kit: Assembly, make: _Range, panel: float) -> None:
-    """Knobs and buttons on the band above the door; some are only drawn."""
+    """Knobs on the band above the door."""
     count = dice.whole(1, 7)
     radius = min(panel * 0.36, make.width / count * 0.3, 0.03)
     z = make.height - panel / 2
-    seed, moves = dice.whole(0, 2**31), dice.chance(0.88)
+    seed = dice.whole(0, 2**31)
     spread = dice.between(0.6, 0.9) * make.width
     skip = count // 2 if count > 3 and dice.chance(0.5) else -1
     for k in range(count):
@@ -172,10 +172,7 @@ def _controls(dice: Dice, kit: Assembly, make: _Range, panel: float) -> None:
             kit.fix([clock], looks.glass(dice))
             continue
         shape = moved(dial(Dice(seed), radius), spot)
-        if moves:
-            kit.add("knob", turning(Dice(seed + 1), spot), [(shape, make.knob)])
-        else:
-            kit.fix(shape, make.knob)
+        kit.add("knob", turning(Dice(seed + 1), spot), [(shape, make.knob)])
 
 
 def _hob(dice: Dice, kit: Assembly, make: _Range, level: float) -> None:

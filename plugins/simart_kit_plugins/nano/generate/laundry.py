@@ -14,7 +14,7 @@ from ...shapes.placing import Y, around, moved, pointed, rotation, turned
 from ...shapes.primitives import Pieces, between, box, boxes, loft, open_box, revolve, vessel
 from ...shapes.walls import pierced
 from . import looks
-from .assembling import Assembly, dial, fall, holder, lift, press, pull, shell, swing, turning
+from .assembling import PAD, Assembly, dial, fall, holder, lift, press, pull, shell, swing, turning
 from .category import Category
 from .objects import Body, Look, spin
 
@@ -95,7 +95,8 @@ def _panel(dice: Dice, kit: Assembly, size: _Size, band: float, coat: Look, draw
     moves = dice.chance(0.6)
     for k in range(count):
         spot = (x - 0.45 * room + (k + 0.5) * key * 1.3, plane, middle)
-        shape = moved([box((key, 0.012, band * 0.2), (0, -0.006, 0))], spot)
+        thick = 0.012 if moves else PAD
+        shape = moved([box((key, thick, band * 0.2), (0, -thick / 2, 0))], spot)
         if moves:
             kit.add("button", press(0.004), [(shape, dark)])
         else:

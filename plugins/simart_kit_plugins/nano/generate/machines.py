@@ -52,11 +52,11 @@ def _cash_register(dice: Dice) -> list[Body]:
 
 
 def _keys(dice: Dice, kit: Assembly, size: tuple[float, float], middle: FloatArray, slope: float) -> None:
-    """Keys that go down into a sloped board, all of them or a few."""
+    """Keys that go down into a sloped board."""
     rows, columns = dice.whole(3, 4), dice.whole(3, 5)
     turn = rotation((1, 0, 0), slope)
     cell = (size[0] * 0.7 / columns, size[1] * 0.55 / rows)
-    look, moves = looks.plastic(dice), dice.chance(0.8)
+    look = looks.plastic(dice)
     for row in range(rows):
         for column in range(columns):
             spot = turn @ np.array(
@@ -68,10 +68,7 @@ def _keys(dice: Dice, kit: Assembly, size: tuple[float, float], middle: FloatArr
             )
             spot = spot + middle
             shape = moved(turned([box((cell[0] * 0.75, cell[1] * 0.75, 0.012), (0, 0, 0.006))], turn), spot)
-            if moves:
-                kit.add("key", slide(turn @ [0, 0, -1], 0.004), [(shape, look)])
-            else:
-                kit.fix(shape, look)
+            kit.add("key", slide(turn @ [0, 0, -1], 0.004), [(shape, look)])
 
 
 def _screen(dice: Dice, kit: Assembly, y: float, level: float, width: float) -> None:

@@ -11,7 +11,7 @@ from ...shapes.outlines import ngon
 from ...shapes.placing import around, at, moved
 from ...shapes.primitives import Pieces, between, box, cylinder, open_box, vessel
 from . import looks
-from .assembling import Assembly, dial, fall, holder, press, pull, rack, shell, swing, turning
+from .assembling import PAD, Assembly, dial, fall, holder, press, pull, rack, shell, swing, turning
 from .category import Category
 from .objects import Body, Look, free, spin
 
@@ -126,14 +126,16 @@ def _pad(
             kit.add("knob", turning(Dice(seed + 1), spot), [(shape, look)])
         return
     rows, columns = dice.whole(2, 5), dice.whole(2, 3)
-    key = np.array([0.7 * wide / columns, 0.006, 0.6 * high / rows])
     moves = dice.chance(0.6)
+    thick = 0.006 if moves else PAD
+    key = np.array([0.7 * wide / columns, thick, 0.6 * high / rows])
     for row in range(rows):
         for column in range(columns):
             x = middle + (column - (columns - 1) / 2) * key[0] * 1.1
             shape = [
                 box(
-                    key * [0.8, 1, 0.75], (x, front - 0.003, up[0] + 0.06 * high + (row + 0.5) * key[2] * 1.1)
+                    key * [0.8, 1, 0.75],
+                    (x, front - thick / 2, up[0] + 0.06 * high + (row + 0.5) * key[2] * 1.1),
                 )
             ]
             if moves:
