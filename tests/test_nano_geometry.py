@@ -6,6 +6,8 @@ from simart_kit_plugins.nano.candidates import CIRCLE, CONTACT, EDGE, MIDDLE, SL
 from simart_kit_plugins.nano.cloud import Cloud, sample_evenly, sample_pieces
 from simart_kit_plugins.nano.evidence import COUNT, evidence, sweep
 from simart_kit_plugins.nano.generate.objects import hinge, slide, spin
+from simart_kit_plugins.nano.line_places import Details, line_places
+from simart_kit_plugins.nano.part_lines import part_lines
 from simart_kit_plugins.nano.scene import pieces_of
 from simart_kit_plugins.nano.superfaces import nearest_superface, superfaces
 from simart_kit_plugins.nano.truth import majority, right_candidates
@@ -130,6 +132,58 @@ def test_a_sweep_says_which_way_a_door_is_free():
     assert (turned.min(axis=1) == 0).all()
 
 
+def upright_edges(found):
+    """Of a door in the plane of x and z: its candidates at the left and at the right edge."""
+    upright = (found.source == EDGE) & (found.frame == 0) & (np.abs(found.axis[:, 2]) > 0.99)
+    return [
+        np.flatnonzero(upright & (found.origin[:, 0] < 0.1)),
+        np.flatnonzero(upright & (found.origin[:, 0] > 0.3)),
+    ]
+
+
+def test_the_edge_with_hinges_and_that_across_from_the_handle_tell_themselves_apart():
+    hinges = np.concatenate([between((0.38, -0.03, z), (0.42, 0.01, z + 0.05)) for z in (-0.35, 0.3)])
+    handle = between((0.03, -0.06, -0.05), (0.05, -0.02, 0.05))
+    solids = [DOOR, handle, BODY, hinges[:12], hinges[12:]]
+    parts = [sampled(solid, 400) for solid in solids]
+    points = np.concatenate([p for p, _ in parts])
+    piece = np.repeat(np.arange(5), [len(p) for p, _ in parts])
+    area = np.concatenate(
+        [np.full(len(p), areas(s).sum() / len(p)) for (p, _), s in zip(parts, solids, strict=True)]
+    )
+    cloud = Cloud(points, np.concatenate([n for _, n in parts]), np.full_like(points, 0.5), piece, area, 5)
+    lines = part_lines(cloud, piece < 2)
+    left, right = upright_edges(lines.found)
+    assert len(left)
+    assert len(right)
+    told = line_places(lines.found, lines.own, lines.rest, lines.details)
+    # Lengths are shares of 0.8, the door's height, and boxes leave out 2 % at either end.
+    # The middle is 0.2 to the right of the left edge.
+    assert np.allclose(told[left, 0], 0.2 / 0.8, atol=0.04)
+    assert np.allclose(told[right, 0], -0.2 / 0.8, atol=0.04)
+    # The handle is 0.16 beyond the middle, seen from the right edge.
+    assert np.allclose(told[right, 3], 0.16 / 0.8, atol=0.04)
+    assert np.allclose(told[left, 3], -0.16 / 0.8, atol=0.04)
+    # The body ends 0.4 to the left of the left edge, and with the door on its right.
+    assert np.allclose(told[left, 6], 0.4 / 0.8, atol=0.1)
+    assert told[right, 6].max() < 0.1
+    assert told[right, 8].min() > 0.5
+    assert told[left, 8].max() < 0.1
+    assert told[right, 9].min() > 0.7
+    assert told[left, 9].max() == 0
+
+
+def test_a_slide_runs_nowhere_in_particular_and_tells_how_far_off_its_grip_is():
+    door, normals = sampled(DOOR)
+    found = candidates(door, normals, door[:0])
+    grip = np.array([0.36, -0.04, 0.0])
+    told = line_places(found, door, np.zeros((0, 3)), Details(grip, np.zeros((0, 3))))
+    slides = np.flatnonzero(found.source == SLIDE)
+    assert (told[slides][:, [0, 1, 2, 5, 6, 7, 8, 9]] == 0).all()
+    outward = slides[np.abs(found.axis[slides, 1]) > 0.99]
+    assert np.allclose(told[outward, 3], 0.16 / 0.8, atol=0.02)
+
+
 def test_evidence_is_finite_and_moderate_for_any_part():
     generator = np.random.default_rng(0)
     for count in (4, 40):
@@ -137,7 +191,9 @@ def test_evidence_is_finite_and_moderate_for_any_part():
         normals = generator.normal(size=(count, 3))
         normals /= np.linalg.norm(normals, axis=1, keepdims=True)
         found = candidates(part, normals, part[:3])
-        numbers = evidence(found, part, generator.normal(0, 0.3, (50, 3)), np.full(count, 0.01))
+        rest = generator.normal(0, 0.3, (50, 3))
+        details = Details(part.mean(axis=0), rest[:9])
+        numbers = evidence(found, part, rest, np.full(count, 0.01), details)
         assert numbers.shape == (len(found), COUNT)
         assert np.isfinite(numbers).all()
         assert np.abs(numbers).max() < 10

@@ -4,16 +4,18 @@ import numpy as np
 import pytest
 from simart_kit_plugins.nano.predicting import is_known
 
-SURE, TORN = np.array([0.99, 0.98, 0.01, 0.0]), np.array([0.99, 0.6, 0.3, 0.0])
+SURE = np.array([0.99, 0.98, 0.01, 0.0])
+TORN, LOST = np.array([0.99, 0.7, 0.1, 0.0]), np.array([0.99, 0.6, 0.4, 0.0])
 
 
 @pytest.mark.parametrize(
     ("chance", "moves", "known"),
     [
-        (0.99, SURE, True),
-        (0.995, TORN, True),
-        (0.9, SURE, True),
-        (0.9, TORN, False),  # surely a door, but which of its pieces move?
+        (0.999, SURE, True),
+        (0.999, TORN, True),
+        (0.999, LOST, False),  # a box that it takes for a range hood
+        (0.95, SURE, True),
+        (0.95, TORN, False),  # surely a door, but which of its pieces move?
         (0.6, SURE, False),
     ],
 )

@@ -6,6 +6,7 @@ from simart_kit_plugins.nano.candidates import SLIDE, Candidates
 from simart_kit_plugins.nano.cloud import Cloud
 from simart_kit_plugins.nano.evidence import COUNT, evidence
 from simart_kit_plugins.nano.examples import example
+from simart_kit_plugins.nano.line_places import Details
 from simart_kit_plugins.nano.mixing import beside, recolored, varied
 from simart_kit_plugins.nano.scene import area_share, pieces_of
 from simart_kit_plugins.nano.store import stored
@@ -61,7 +62,8 @@ def test_evidence_turns_as_part_and_candidates_do(quarters, mirrored):
     def told(m):
         origin = part[:12] @ m.T
         found = Candidates(axis @ m.T, origin, source, np.zeros(12, dtype=int), np.zeros(12))
-        return evidence(found, part @ m.T, rest @ m.T, gap)
+        details = Details(m @ [-0.4, -0.05, 0.1], rest[:900] @ m.T)
+        return evidence(found, part @ m.T, rest @ m.T, gap, details)
 
     expected = told(matrix_of(quarters, mirrored))
     got = turned_evidence(told(np.eye(3)), quarters, mirrored)

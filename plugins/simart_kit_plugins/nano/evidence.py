@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from simart_kit.arrays import BoolArray, FloatArray, units
+from simart_kit.arrays import BoolArray, FloatArray
 
 from .candidates import SLIDE, SOURCES, Candidates
+from .line_places import PLACE_NUMBERS, SIDE, Details, from_lines, line_places
 
 # Points of a part that a sweep moves, and cells along an edge of the grid of what is in the way.
 _SWEPT, _CELLS = 64, 40
@@ -15,13 +16,18 @@ _TURNS = np.deg2rad([-70.0, -15.0, 15.0, 70.0])
 _SHIFTS = np.array([-0.8, -0.2, 0.2, 0.8])
 # Points of the part this near to the rest touch it.
 TOUCHING = 0.02
-COUNT = len(SOURCES) + 2 + 3 + 2 + 3 + 3 + 5 + 4
-# Columns of evidence that tell lengths along x, y and z, in sides of the object, and of moves both ways.
+_PLACES = len(SOURCES) + 2 + 3 + 2 + 3 + 3 + 5
+COUNT = _PLACES + PLACE_NUMBERS + 4
+# Columns of evidence that tell lengths along x, y and z, places along them, extents in sides of the object,
+# and moves both ways.
 ALONG_AXES = (slice(8, 11), slice(13, 16), slice(16, 19))
+PLACE = slice(_PLACES + SIDE.start, _PLACES + SIDE.stop)
 EXTENTS, BOTH_WAYS = slice(11, 13), slice(COUNT - 4, COUNT)
 
 
-def evidence(found: Candidates, part: FloatArray, rest: FloatArray, gap: FloatArray) -> FloatArray:
+def evidence(
+    found: Candidates, part: FloatArray, rest: FloatArray, gap: FloatArray, details: Details
+) -> FloatArray:
     """(C, COUNT) of each candidate, all about -1..1.
 
     Args:
@@ -29,14 +35,15 @@ def evidence(found: Candidates, part: FloatArray, rest: FloatArray, gap: FloatAr
         part: (N, 3) points of the part; the object's longest side is 1.
         rest: (M, 3) points of all else; may be none.
         gap: (N,) from each point of the part to the nearest of the rest, at most 1.
+        details: the small pieces of both.
     """
     low, high = part.min(axis=0), part.max(axis=0)
     middle, size = (low + high) / 2, max(float((high - low).max()), 1e-6)
     near = part[gap <= max(TOUCHING, float(np.quantile(gap, 0.02)))]
     contact = near.mean(axis=0)
     slide = (found.source == SLIDE)[:, None]
-    offset = np.where(slide, 0, _across(found, middle))
-    to_contact = np.where(slide, 0, _across(found, contact))
+    offset = np.where(slide, 0, from_lines(found, middle))
+    to_contact = np.where(slide, 0, from_lines(found, contact))
     radial = part[None] - found.origin[:, None]
     along = np.einsum("cnk,ck->cn", radial, found.axis)
     radius = np.sqrt(np.maximum((radial**2).sum(axis=2) - along**2, 0))
@@ -57,6 +64,7 @@ def evidence(found: Candidates, part: FloatArray, rest: FloatArray, gap: FloatAr
                 offset @ [0, 0, 1] / size,
             ]
         ),
+        line_places(found, part, rest, details),
         sweep(found, part, rest),
     ]
     return np.concatenate(numbers, axis=1).astype(np.float32)
@@ -102,10 +110,3 @@ def _cells(points: FloatArray) -> BoolArray:
     cells = np.clip(np.floor((points + 1) * (_CELLS / 2)).astype(np.int64), 0, _CELLS - 1)
     grid[tuple(cells.T)] = True
     return grid
-
-
-def _across(found: Candidates, point: FloatArray) -> FloatArray:
-    """(C, 3) from the nearest point of each line to a point."""
-    away = point - found.origin
-    axis = units(found.axis)
-    return np.asarray(away - (away * axis).sum(axis=1, keepdims=True) * axis)

@@ -11,9 +11,12 @@ from simart_kit.arrays import BoolArray, FloatArray
 from .candidates import Candidates, candidates
 from .cloud import Cloud
 from .evidence import TOUCHING, evidence
+from .line_places import Details
 
 # Farther from the rest than this is far [sides of the object].
 _FAR = 1.0
+# Pieces smaller than this share of a part's largest one are details: its handles, or hinges on what holds it.
+_SMALL = 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,16 +28,18 @@ class PartLines:
         rest: (M, 3) points of all else.
         gap: (N,) from each point of the part to the nearest of the rest, at most `_FAR`.
         found: its candidates.
+        details: its small pieces, and those of the rest.
     """
 
     own: FloatArray
     rest: FloatArray
     gap: FloatArray
     found: Candidates
+    details: Details
 
     def evidence(self) -> FloatArray:
         """(C, COUNT) numbers for each candidate."""
-        return evidence(self.found, self.own, self.rest, self.gap)
+        return evidence(self.found, self.own, self.rest, self.gap, self.details)
 
 
 def part_lines(cloud: Cloud, inside: BoolArray) -> PartLines:
@@ -43,4 +48,19 @@ def part_lines(cloud: Cloud, inside: BoolArray) -> PartLines:
 
     own, rest = cloud.points[inside], cloud.points[~inside]
     gap = np.minimum(np.asarray(cKDTree(rest).query(own)[0]), _FAR)
-    return PartLines(own, rest, gap, candidates(own, cloud.normals[inside], own[gap < TOUCHING]))
+    found = candidates(own, cloud.normals[inside], own[gap < TOUCHING])
+    return PartLines(own, rest, gap, found, _details(cloud, inside))
+
+
+def _details(cloud: Cloud, inside: BoolArray) -> Details:
+    area = np.bincount(cloud.piece, cloud.area, cloud.count)
+    own = np.unique(cloud.piece[inside])
+    small = area < _SMALL * area[own].max()
+    parts = own[small[own]]
+    grips = [_middle(cloud.points[cloud.piece == piece]) for piece in parts]
+    grip = np.mean(grips, axis=0) if grips else _middle(cloud.points[inside])
+    return Details(grip, cloud.points[~inside & small[cloud.piece]])
+
+
+def _middle(points: FloatArray) -> FloatArray:
+    return np.asarray((points.min(axis=0) + points.max(axis=0)) / 2)

@@ -29,9 +29,10 @@ _WORTH = 0.3
 # Share of the surface that a part which lies loose may have.
 _CARRIED = 0.5
 # An object of a known category is recognised from this chance on; less of its parts' sureness is enough then.
-_KNOWN, _EASE = 0.99, 1 / 4
-# So it is from this chance on if it is no more torn than this about what moves, on average over the pieces.
-_LIKELY, _TORN = 0.8, 0.03
+# It may be torn so much about what moves then, on average over the pieces.
+_KNOWN, _TORN, _EASE = 0.995, 0.15, 1 / 4
+# So it is from this chance on if it is hardly torn.
+_LIKELY, _HARDLY = 0.9, 0.012
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +128,7 @@ def is_known(chance: float, moves: FloatArray) -> bool:
         moves: (S,) chance of each piece to be of a moving part.
     """
     torn = float(np.minimum(moves, 1 - moves).mean())
-    return chance >= _KNOWN or (chance >= _LIKELY and torn <= _TORN)
+    return chance >= _LIKELY and torn <= (_TORN if chance >= _KNOWN else _HARDLY)
 
 
 def plausible(part: PredictedPart, area: FloatArray) -> PredictedPart:

@@ -41,7 +41,7 @@ class Nano(Segmenter):
             default="", description="Folder of the weights, such as `train nano` writes; the shipped ones."
         )
         least: float = Field(
-            default=0.9,
+            default=0.95,
             ge=0,
             le=1,
             description="Parts less sure than this stay with the body; a quarter of it is enough in an "

@@ -9,7 +9,7 @@ import numpy as np
 from simart_kit.arrays import Float32Array, FloatArray
 
 from .candidates import SLIDE
-from .evidence import ALONG_AXES, BOTH_WAYS
+from .evidence import ALONG_AXES, BOTH_WAYS, PLACE
 from .scene import FACING, HALF, MIDDLE, SPREAD
 from .store import Stored
 
@@ -48,6 +48,7 @@ def turned_pieces(own: Float32Array, quarters: int, mirrored: bool) -> Float32Ar
 def turned_evidence(numbers: FloatArray, quarters: int, mirrored: bool) -> FloatArray:
     """(C, COUNT) evidence of the same candidates, turned."""
     result = numbers.copy()
+    result[:, PLACE] = numbers[:, PLACE] @ _matrix(quarters, mirrored).T.astype(numbers.dtype)
     if quarters % 2:
         for columns in ALONG_AXES:
             result[:, columns] = numbers[:, columns][:, [1, 0, 2]]
