@@ -93,6 +93,19 @@ def test_a_training_goes_on_from_the_weights_of_a_model(plan, objects, tmp_path)
         checkpoint.begun(other)
 
 
+def test_a_share_of_the_weights_of_the_start_stays_in_the_result(plan, objects, tmp_path):
+    save_network(train(plan, objects, tmp_path / "first", lambda row: None), tmp_path / "model")
+    start = weights(load_model(tmp_path / "model").network)
+    further = plan.model_copy(update={"start": str(tmp_path / "model"), "seed": 1})
+    alone = weights(train(further, objects, tmp_path / "second", lambda row: None))
+    blend = further.model_copy(update={"start_share": 0.25})
+    # The share decides the result alone: a run that is over can be blended anew.
+    both = weights(train(blend, objects, tmp_path / "second", lambda row: None))
+    assert any(not torch.allclose(start[name], alone[name]) for name in start)
+    for name, tensor in both.items():
+        torch.testing.assert_close(tensor, 0.25 * start[name] + 0.75 * alone[name])
+
+
 def test_a_run_that_was_killed_ends_with_the_weights_it_would_have_had(plan, objects, tmp_path):
     whole = train(plan, objects, tmp_path / "whole", lambda row: None)
 
@@ -162,6 +175,11 @@ def test_the_command_trains_goes_on_and_judges(tmp_path, capfd, monkeypatch):
     [
         (["--evaluate"], "out has no checkpoint to judge: train it first"),
         (["--learning-rate", "0"], "training options: learning_rate: "),
+        (
+            ["--start-share", "0.5"],
+            "--start-share is the share of a model in the result: name it with --start",
+        ),
+        (["--start-share", "1.5"], "training options: start_share: "),
         (["--device", "abacus"], "training options: device: "),
         (["--precision", "int4"], "training options: precision: "),
     ],

@@ -32,6 +32,10 @@ Start = Annotated[
     Path | None,
     typer.Option(metavar="DIR", help="Go on from the weights of this model; default: from nothing."),
 ]
+StartShare = Annotated[
+    float | None,
+    typer.Option(metavar="X", help="Share of the weights of --start that stays in the result."),
+]
 Seed = Annotated[int | None, typer.Option(min=0, metavar="N", help="Decides all that is random.")]
 Device = Annotated[str | None, typer.Option(metavar="cpu|cuda", help="Where to compute; also cuda:N.")]
 Precision = Annotated[str | None, typer.Option(metavar="fp32|bf16", help="Arithmetic of the network.")]
@@ -53,6 +57,7 @@ def train_nano(
     skin_share: SkinShare = None,
     learning_rate: Rate = None,
     start: Start = None,
+    start_share: StartShare = None,
     seed: Seed = None,
     device: Device = None,
     precision: Precision = None,
@@ -77,13 +82,14 @@ def train_nano(
         "skin_share": skin_share,
         "learning_rate": learning_rate,
         "start": str(start) if start else None,
+        "start_share": start_share,
         "seed": seed,
         "device": device,
         "precision": precision,
     }
     with stdout_kept(json):
         plan = _plan({name: value for name, value in changes.items() if value is not None})
-        _check(run, start, resume, evaluate)
+        _check(run, start, start_share, resume, evaluate)
         scores = _performed(plan, run, processes or os.cpu_count() or 1, evaluate, quiet)
     if json:
         print_json({"ok": True, "run": str(run), "scores": {k: asdict(v) for k, v in scores.items()}})
@@ -104,7 +110,7 @@ def _plan(changes: dict[str, object]) -> TrainingPlan:
         raise BadInputError(f"training options: {told(error)}") from error
 
 
-def _check(run: Path, start: Path | None, resume: bool, evaluate: bool) -> None:
+def _check(run: Path, start: Path | None, start_share: float | None, resume: bool, evaluate: bool) -> None:
     from ..training import checkpoint
     from ..weights import load_model
 
@@ -114,6 +120,8 @@ def _check(run: Path, start: Path | None, resume: bool, evaluate: bool) -> None:
         raise BadInputError(f"{run} has no checkpoint to judge: train it first")
     if checkpoint.exists(run) and not (resume or evaluate):
         raise BadInputError(f"{run} has a run already: go on with --resume, or choose another --run")
+    if start_share and not start:
+        raise BadInputError("--start-share is the share of a model in the result: name it with --start")
     if start:
         load_model(start)  # what is wrong with it is told before objects are made
 
@@ -138,7 +146,7 @@ def _performed(
         _make([shard for some in files.values() for shard in some], processes, quiet)
         examples = pool.read(files[pool.TRAIN])
         plan = with_names(plan, examples)
-        network = _mean(plan, run) if evaluate else train(plan, examples, run, _Printer(plan, quiet))
+        network = _so_far(plan, run) if evaluate else train(plan, examples, run, _Printer(plan, quiet))
         save_network(network, run / "model", counted(plan.network.categories, plan.seed))
     judged = {"categories trained on": pool.SEEN, "unseen categories": pool.UNSEEN}
     return {name: score(network, pool.read(files[use])) for name, use in judged.items() if files[use]}
@@ -154,12 +162,10 @@ def _make(files: list[Shard], processes: int, quiet: bool) -> None:
     make(files, processes, progress)
 
 
-def _mean(plan: TrainingPlan, run: Path) -> NanoNetwork:
+def _so_far(plan: TrainingPlan, run: Path) -> NanoNetwork:
     from ..training import checkpoint
 
-    state = checkpoint.load(plan, run)
-    state.network.load_state_dict(state.mean)
-    return state.network.eval()
+    return checkpoint.result(checkpoint.load(plan, run), plan)
 
 
 class _Printer:

@@ -19,7 +19,7 @@ from .plan import TrainingPlan
 
 FOLDER, TENSORS, STATE = "checkpoint", "state.safetensors", "state.json"
 # What a run may change when it goes on: it decides what is written, and where it is computed.
-_FREE = {"checkpoint_every", "log_every", "device"}
+_FREE = {"checkpoint_every", "log_every", "device", "start_share"}
 # A ValidationError is a ValueError.
 _DAMAGE = (OSError, ValueError, KeyError, TypeError, RuntimeError)
 _MOMENTS = ("step", "exp_avg", "exp_avg_sq")
@@ -61,6 +61,23 @@ def begun(plan: TrainingPlan) -> Progressing:
             "begin without --start, or go on from a model that was trained with them"
         )
     return _with(network.train(), plan)
+
+
+def result(state: Progressing, plan: TrainingPlan) -> NanoNetwork:
+    """What a training gives: the mean of its weights, blended with those that it started from.
+
+    Between both a network keeps what it knew of objects unlike the training's (Wortsman et al., "Robust
+    fine-tuning of zero-shot models", 2022).
+
+    Raises:
+        BadInputError: the model that it started from cannot be read any more, or is another one.
+    """
+    weights = state.mean
+    if plan.start and plan.start_share:
+        start = begun(plan).mean
+        weights = {name: torch.lerp(mean, start[name], plan.start_share) for name, mean in weights.items()}
+    state.network.load_state_dict(weights)
+    return state.network.eval()
 
 
 def _with(network: NanoNetwork, plan: TrainingPlan) -> Progressing:

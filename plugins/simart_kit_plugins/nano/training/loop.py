@@ -58,7 +58,7 @@ def with_names(plan: TrainingPlan, examples: Sequence[Stored]) -> TrainingPlan:
 def train(
     plan: TrainingPlan, examples: Sequence[Stored], run: Path, observer: Callable[[NanoRow], None]
 ) -> NanoNetwork:
-    """Train from the run's checkpoint, or from the beginning; the mean of the weights is what is returned.
+    """Train from the run's checkpoint, or from the beginning; see `checkpoint.result` for what is returned.
 
     Raises:
         BadInputError: the run's checkpoint is of another plan or damaged, or a loss is not finite.
@@ -79,8 +79,7 @@ def train(
             gathered = []
         if last or state.step % plan.checkpoint_every == 0:
             checkpoint.save(state, plan, run)
-    state.network.load_state_dict(state.mean)
-    return state.network.eval()
+    return checkpoint.result(state, plan)
 
 
 def batch_rows(sizes: Sequence[int], batch_size: int, seed: int, step: int) -> list[int]:

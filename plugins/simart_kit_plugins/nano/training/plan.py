@@ -49,6 +49,9 @@ class TrainingPlan(Table):
     log_every: int = Field(default=50, gt=0, description="Steps between lines.")
     precision: Literal["fp32", "bf16"] = Field(default="bf16", description="Arithmetic of the network.")
     start: str = Field(default="", description="Folder of the model to go on from; from nothing by default.")
+    start_share: float = Field(
+        default=0, ge=0, lt=1, description="Share of the weights of `start` in those of the result."
+    )
     device: str = Field(default="cpu", pattern=r"^(cpu|cuda(:[0-9]+)?)$", description="cpu or cuda:N.")
     network: NanoConfig = Field(
         default=NanoConfig(), description="Sizes; labels and categories are filled in."
