@@ -9,7 +9,7 @@ from ...shapes.placing import X, around, moved, rotation, turned
 from ...shapes.primitives import Pieces, box, cylinder, revolve, rod, superquadric, tube
 from . import looks
 from .category import Category
-from .objects import Body, hinge, slide, spin, surface
+from .objects import Body, hinge, spin, surface
 from .rigging import BACK, RIGHT, UP, Rig, lying, plate, profile
 
 
@@ -139,7 +139,7 @@ def _helicopter(dice: Dice) -> list[Body]:
             x, y = s * (wide / 2 + 0.006 * long), -0.3 * long
             leaf = box((0.01 * long, 0.16 * long, 0.6 * tall), (x, y + 0.08 * long, 0))
             pane = box((0.012 * long, 0.1 * long, 0.25 * tall), (x, y + 0.08 * long, 0.12 * tall))
-            moves = slide(BACK, 0.14 * long) if dice.chance(0.3) else hinge((x, y, 0), (0, 0, -s), 1.3)
+            moves = hinge((x, y, 0), (0, 0, -s), 1.3)
             whole.add(
                 "door",
                 moves,

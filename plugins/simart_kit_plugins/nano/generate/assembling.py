@@ -14,7 +14,7 @@ from ...shapes.dice import Dice
 from ...shapes.handles import handle, knob
 from ...shapes.placing import Y, at, moved, pointed, rotation, turned
 from ...shapes.primitives import Pieces, box, cylinder, open_box, rod, tube
-from .objects import Body, Look, Motion, Surface, hinge, slide, spin, surface
+from .objects import Body, Look, Motion, Surface, hinge, slide, surface
 
 PAD = 0.0006
 """Thickness of a button that is only printed on: one that can be pressed stands out [m]."""
@@ -175,9 +175,7 @@ def dial(dice: Dice, radius: float) -> Pieces:
 
 
 def turning(dice: Dice, origin: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Motion:
-    """What a dial does: between stops, mostly, or without end."""
-    if dice.chance(0.25):
-        return spin(origin, axis)
+    """What a dial does: it turns between stops."""
     upper = dice.pick((1.57, 2.4, 3.14, 4.7, 5.2))
     if dice.chance(0.2):
         return hinge(origin, axis, upper / 2, -upper / 2)

@@ -152,10 +152,7 @@ def _hand_truck(dice: Dice) -> list[Body]:
     whole = Rig(surface([*uprights, *rails, axle, *stays], look), label="frame")
     toe = box((width * 0.9, dice.between(0.18, 0.3), 0.008))
     plate_ = surface([toe + [0, -float(np.ptp(toe[..., 1])) / 2 - 0.016, low]], looks.metal(dice))
-    if dice.chance(0.5):
-        whole.add("toe plate", hinge((0, -0.016, low), LEFT, 1.5), plate_)
-    else:
-        whole.dress(0, plate_)
+    whole.add("toe plate", hinge((0, -0.016, low), LEFT, 1.5), plate_)
     top = [
         (-x, 0.0, tall - 0.3),
         (-x, 0.0, tall + 0.05),
@@ -165,10 +162,7 @@ def _hand_truck(dice: Dice) -> list[Body]:
         (x, 0.0, tall - 0.3),
     ]
     grip = surface([tube(np.array(top), 0.01, 8)], looks.rubber(dice))
-    if dice.chance(0.5):
-        whole.add("handle", slide(UP, 0.25), grip)
-    else:
-        whole.dress(0, grip)
+    whole.add("handle", slide(UP, 0.25), grip)
     form = axle_wheel(dice, radius)
     half = max(float(np.abs(piece[..., 0]).max()) for piece in form)
     for name, s in (("left_wheel", -1), ("right_wheel", 1)):
@@ -232,10 +226,7 @@ def _wheelbarrow(dice: Dice) -> list[Body]:
         ],
     )
     piece = surface([tub + [0, -0.01, level]], looks.painted_metal(dice))
-    if dice.chance(0.4):
-        whole.add("tub", hinge((0, -0.01 - d / 2, level), RIGHT, 1.2), piece)
-    else:
-        whole.dress(0, piece)
+    whole.dress(0, piece)
     _barrow_wheels(dice, whole, radius, nose, x + 0.07 if twin else 0.0)
     return whole.bodies()
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
+
 from . import (
     aircraft,
     bins,
@@ -49,8 +52,9 @@ from . import (
     workshop_tools,
 )
 from .category import Category
+from .hinges import hinged
 
-CATEGORIES: tuple[Category, ...] = (
+_MADE: tuple[Category, ...] = (
     *aircraft.CATEGORIES,
     *bins.CATEGORIES,
     *carried.CATEGORIES,
@@ -96,3 +100,4 @@ CATEGORIES: tuple[Category, ...] = (
     *windows.CATEGORIES,
     *workshop_tools.CATEGORIES,
 )
+CATEGORIES: tuple[Category, ...] = tuple(replace(made, bodies=partial(hinged, made.bodies)) for made in _MADE)

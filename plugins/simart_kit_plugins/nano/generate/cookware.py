@@ -159,10 +159,7 @@ def _kettle(dice: Dice) -> list[Body]:
     at_x = max(mouth, radius * 0.8) * 1.05
     bow = [bail(dice, at_x, height) + [0, 0, level]]
     kit.fix([box((0.01, 0.012, 0.02), (s * at_x * 0.97, 0, level)) for s in (-1, 1)], coat)
-    if dice.chance(0.7):
-        kit.add("handle", tilting((0, 0, level), dice.between(1.0, 1.45)), [(bow, dark)])
-    else:
-        kit.fix(bow, dark)
+    kit.add("handle", tilting((0, 0, level), dice.between(1.0, 1.45)), [(bow, dark)])
     return kit.done()
 
 
@@ -195,19 +192,8 @@ def _grips(dice: Dice, kit: Assembly, radius: float, height: float, grip: Look) 
             (radius * 0.97, wide, 0),
         ]
         ear = [tube(loop, radius * 0.04, 8) + [0, 0, level]]
-        swings = dice.chance(0.2)
         for side in (-1, 1):
-            shape = [piece * [side, 1, 1] for piece in ear]
-            if swings:
-                pin = (side * radius * 1.02, 0, level)
-                kit.add(
-                    "handle",
-                    hinge(pin, (0, side, 0), 1.4),
-                    [(shape, grip)],
-                    name="left_handle" if side < 0 else "right_handle",
-                )
-            else:
-                kit.fix(shape, grip)
+            kit.fix([piece * [side, 1, 1] for piece in ear], grip)
     elif style < 0.85:
         kit.fix(_stick(dice, radius, level), grip)
     else:

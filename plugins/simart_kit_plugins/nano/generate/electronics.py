@@ -105,9 +105,9 @@ def _flip_phone(dice: Dice) -> list[Body]:
     form = slab(dice, width, depth, 1.0)
     whole = Rig(surface([form * [1, 1, thick] + [0, 0, thick / 2]], shell))
     rows, columns = dice.whole(3, 5), dice.whole(3, 4)
-    rise, spots = 0.0012, grid(width * 0.85, depth * 0.55, rows, columns)
+    moving, spots = dice.chance(0.6), grid(width * 0.85, depth * 0.55, rows, columns)
+    rise = 0.0012 if moving else 0.0003
     key = slab(dice, width * 0.7 / columns, depth * 0.42 / rows, rise) + [0, 0, thick + rise / 2]
-    moving = dice.chance(0.6)
     for x, y in spots:
         one = surface([key + [x, y - 0.18 * depth, 0]], looks.darker(shell, 0.6))
         if moving:

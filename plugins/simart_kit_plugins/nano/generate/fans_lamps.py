@@ -79,14 +79,8 @@ def _standing_fan(dice: Dice) -> list[Body]:
     parts = [(shape, coat)]
     if dice.chance(0.8):
         parts.append((moved([pointed(p, Y) for p in _cage(dice, radius * 1.05, deep)], center), metal))
-    nods = parent == 0 or dice.chance(0.6)
-    if nods:
-        motion = hinge(pin, (1, 0, 0), dice.between(0.2, 0.6), -dice.between(0.2, 0.8))
-        head = kit.add("head", motion, parts, parent)
-    else:
-        head = parent
-        for pieces, look in parts:
-            kit.fix(pieces, look, parent)
+    motion = hinge(pin, (1, 0, 0), dice.between(0.2, 0.6), -dice.between(0.2, 0.8))
+    head = kit.add("head", motion, parts, parent)
     rotor = [pointed(p, Y) for p in _blades(dice, radius)]
     shaft = rod(center + [0, post * 2, 0], center, post * 0.4, 8)
     kit.fix([shaft], metal, head)
@@ -195,13 +189,10 @@ def _desk_lamp(dice: Dice) -> list[Body]:
     kit, coat, metal = Assembly("base"), looks.painted_metal(dice), looks.metal(dice)
     wide = dice.between(0.06, 0.11)
     kit.fix([prism(dice.pick((ngon(20), SQUARE, rounded(0.2))), (2 * wide, 2 * wide, 0.025))], coat)
-    parent, place = 0, np.array([0, 0.3 * wide, 0.0125])
-    if dice.chance(0.35):
-        post = [cylinder(0.015, 0.04, 12) + place + [0, 0, 0.021]]
-        reach = dice.between(1.0, 3.1)
-        parent = kit.add("post", hinge(place, (0, 0, 1), reach, -reach), [(post, metal)])
-    else:
-        kit.fix([cylinder(0.015, 0.04, 12) + place + [0, 0, 0.02]], metal)
+    place = np.array([0, 0.3 * wide, 0.0125])
+    post = [cylinder(0.015, 0.04, 12) + place + [0, 0, 0.021]]
+    reach = dice.between(1.0, 3.1)
+    parent = kit.add("post", hinge(place, (0, 0, 1), reach, -reach), [(post, metal)])
     place = place + [0, 0, 0.045]
     count, lean = dice.whole(1, 3), dice.between(-0.5, 0.2)
     twin, thick = dice.chance(0.4), dice.between(0.004, 0.009)

@@ -32,13 +32,10 @@ def _monitor(dice: Dice) -> list[Body]:
     foot = prism(rounded(0.2), (0.4 * width, 0.2, 0.012)) + [0, 0.02, 0.006]
     if dice.chance(0.4):
         foot = prism(ngon(20), (0.3 * width, 0.22, 0.015)) + [0, 0.02, 0.0075]
-    whole, parent = Rig(surface([foot], shell), label="base"), 0
+    whole = Rig(surface([foot], shell), label="base")
     center = level + 0.5 * high
     column = [box((0.05, 0.025, center - 0.02), (0, 0.06, center / 2 + 0.01))]
-    if dice.chance(0.5):
-        parent = whole.add("column", hinge((0, 0.06, 0.01), UP, 0.8, -0.8), surface(column, metal))
-    else:
-        whole.dress(0, surface(column, metal))
+    parent = whole.add("column", hinge((0, 0.06, 0.01), UP, 0.8, -0.8), surface(column, metal))
     if dice.chance(0.5):
         sleeve = surface([box((0.07, 0.04, 0.08), (0, 0.06, center - 0.05))], shell)
         room = min(0.1, level - 0.02)
@@ -73,10 +70,7 @@ def _camera(dice: Dice) -> list[Body]:
         long, size = dice.between(0.012, 0.035), radius * (1 - 0.08 * k)
         middle = np.array([x, reach - long / 2, 0.48 * high])
         ring = surface([lying(size, long - 0.001, Y, 20) + middle, upright_ring(size, 0.003) + middle], dark)
-        if k == 0 and dice.chance(0.4):
-            whole.dress(0, ring)
-        else:
-            whole.add("lens ring", spin(middle, FRONT), ring)
+        whole.add("lens ring", spin(middle, FRONT), ring)
         reach -= long
     whole.dress(0, surface([lying(0.75 * radius, 0.002, Y, 16) + [x, reach, 0.48 * high]], looks.glass(dice)))
     top = high + 0.004
@@ -111,15 +105,11 @@ def _headphones(dice: Dice) -> list[Body]:
     arch = np.column_stack([width / 2 * np.cos(angle), 0 * angle, high * np.sin(angle)])
     band = tube(arch, 0.007, 8) * [1, dice.between(1, 3), 1]
     whole = Rig(surface([band], shell), label="headband")
-    slides, radius = dice.chance(0.5), dice.between(0.03, 0.045)
+    radius = dice.between(0.03, 0.045)
     for name, s in (("left", -1), ("right", 1)):
         end = np.array([s * width / 2, 0, 0])
-        parent = 0
         arm = surface([box((0.008, 0.016, 0.05), end + [0, 0, -0.012])], shell)
-        if slides:
-            parent = whole.add("slider", slide(DOWN, 0.03), arm, name=f"{name}_slider")
-        else:
-            whole.dress(0, arm)
+        parent = whole.add("slider", slide(DOWN, 0.03), arm, name=f"{name}_slider")
         pin = end + [0, 0, -0.05]
         cup = [
             pointed(superquadric((2.3 * radius, 2 * radius, 0.03), 0.5, 1.0, 7), X) + pin,

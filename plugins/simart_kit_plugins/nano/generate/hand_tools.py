@@ -30,6 +30,12 @@ def _lying(dice: Dice, whole: Rig) -> list[Body]:
     return whole.bodies(yaw @ rotation(RIGHT, -np.pi / 2) if dice.chance(0.25) else yaw)
 
 
+def _held(dice: Dice, whole: Rig) -> list[Body]:
+    """As a hand holds them: the arm that moves above the one that stays, which looks the same."""
+    yaw = rotation(UP, dice.between(-0.6, 0.6) if dice.chance(0.5) else 0.0)
+    return whole.bodies(yaw @ rotation((0, 1, 0), np.pi / 2))
+
+
 def _scissors(dice: Dice) -> list[Body]:
     blade, shank = dice.between(0.05, 0.16), dice.between(0.03, 0.1)
     thick, wide = 0.02 * blade + 0.0008, dice.between(0.08, 0.16) * blade
@@ -117,7 +123,7 @@ def _pliers(dice: Dice) -> list[Body]:
         ]
         pivot = (bow - wide, 0.3 * long, thick / 2)
         whole.add("lever", hinge(pivot, UP, 0.4), surface(lever, looks.darker(steel)))
-    return _lying(dice, whole)
+    return _held(dice, whole)
 
 
 def _tongs(dice: Dice) -> list[Body]:
@@ -143,7 +149,7 @@ def _tongs(dice: Dice) -> list[Body]:
         ring = boxes((2 * half + 0.004, 0.006, 0.002), [(0, y, s * (wide / 2 + 0.002)) for s in (-1, 1)])
         cheeks = boxes((0.002, 0.006, wide + 0.006), [(s * (half + 0.001), y, 0) for s in (-1, 1)])
         whole.add("lock ring", slide((0, 1, 0), 0.09 * long), surface([ring, cheeks], looks.darker(look)))
-    return whole.bodies(rotation((0, 1, 0), dice.pick((0.0, np.pi / 2))))
+    return _held(dice, whole)
 
 
 def _nutcracker(dice: Dice) -> list[Body]:
@@ -162,7 +168,7 @@ def _nutcracker(dice: Dice) -> list[Body]:
     whole = Rig(arms[0], surface(link, looks.darker(look)), label="arm")
     bolt = surface([cylinder(0.4 * wide, 1.2 * thick, 10) + [-pin, 0, thick / 2]], looks.darker(look))
     whole.add("arm", hinge((-pin, 0, 0), UP, dice.between(0.6, 1.3)), arms[1], bolt, name="second_arm")
-    return _lying(dice, whole)
+    return _held(dice, whole)
 
 
 def _stapler(dice: Dice) -> list[Body]:
@@ -176,10 +182,7 @@ def _stapler(dice: Dice) -> list[Body]:
     )
     whole = Rig(surface([base], shell), surface([cheeks], steel), label="base")
     anvil = surface([box((0.4 * wide, 0.08 * long, 0.001), (0, -0.4 * long, 0.0066))], steel)
-    if dice.chance(0.4):
-        whole.add("anvil", spin((0, -0.4 * long, 0.006), UP), anvil)
-    else:
-        whole.dress(0, anvil)
+    whole.dress(0, anvil)
     tilt = dice.between(0.03, 0.1)
     lean = rotation(LEFT, tilt)
     bar = box((0.5 * wide, 0.88 * long, 0.3 * high), (0, -0.43 * long, 0))
@@ -299,7 +302,7 @@ def _clothes_peg(dice: Dice) -> list[Body]:
     ]
     whole = Rig(halves[0], surface(spring + ends, _bar_look(dice)), label="half")
     whole.add("half", hinge((0, 0, 0), (0, 0, -1), open_ * 0.8), halves[1], name="second_half")
-    return _lying(dice, whole)
+    return _held(dice, whole)
 
 
 CATEGORIES: tuple[Category, ...] = (

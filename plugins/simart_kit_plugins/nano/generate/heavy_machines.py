@@ -212,10 +212,7 @@ def _tractor(dice: Dice) -> list[Body]:
         ),
     )
     hood = prism(rounded(0.15), (wide, 0.55 * long, 0.45)) + [0, nose + 0.29 * long, level + 0.435]
-    if dice.chance(0.5):
-        whole.add("bonnet", hinge((0, nose + 0.01, level + 0.22), RIGHT, 0.9), surface([hood], paint))
-    else:
-        whole.dress(0, surface([hood], paint))
+    whole.add("bonnet", hinge((0, nose + 0.01, level + 0.22), RIGHT, 0.9), surface([hood], paint))
     for spot, radius, label in ((nose + small, small, "front"), (0.28 * long, big, "rear")):
         form = axle_wheel(dice, radius)
         half = max(float(np.abs(p[..., 0]).max()) for p in form)

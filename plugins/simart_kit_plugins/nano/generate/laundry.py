@@ -64,10 +64,7 @@ def _drum(dice: Dice, kit: Assembly, radius: float, depth: float, level: float) 
     vanes = [pointed(piece, Y) - [0, 0.375 * depth, 0] for piece in vanes]
     place = (0, -depth / 2 + 0.8 * depth, level)
     parts = [(moved([tub, *vanes], place), metal)]
-    if dice.chance(0.75):
-        kit.add("drum", spin(place, (0, 1, 0)), parts)
-    else:
-        kit.fix(*parts[0])
+    kit.add("drum", spin(place, (0, 1, 0)), parts)
 
 
 def _panel(dice: Dice, kit: Assembly, size: _Size, band: float, coat: Look, drawers: bool) -> None:

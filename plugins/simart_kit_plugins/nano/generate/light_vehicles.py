@@ -183,13 +183,8 @@ def _skateboard(dice: Dice) -> list[Body]:
             rod(at, at + [0, 0, -0.035], 0.015),
             lying(0.006, wide, X, 8) + at + [0, 0, -0.035],
         ]
-        parent = 0
-        if dice.chance(0.7):
-            parent = whole.add(
-                "truck", hinge(at, lean, 0.25, -0.25), surface(truck, metal), name=f"{name}_truck"
-            )
-        else:
-            whole.dress(0, surface(truck, metal))
+        steers = hinge(at, lean, 0.25, -0.25)
+        parent = whole.add("truck", steers, surface(truck, metal), name=f"{name}_truck")
         for side, t in (("left", -1), ("right", 1)):
             hub = at + [t * 0.45 * wide, 0, -0.035]
             whole.add(

@@ -137,11 +137,8 @@ def _truck(dice: Dice) -> list[Body]:
     )
     if fixed_sides:
         pieces += moved([side], (x - wall / 2, 0, 0)) + moved([side], (-x + wall / 2, 0, 0))
-    rear, bed = (0, tail - 0.1, floor), 0
-    if dice.chance(0.75):
-        bed = whole.add("tipper bed", hinge(rear, LEFT, dice.between(0.7, 1.0)), surface(pieces, paint))
-    else:
-        whole.dress(0, surface(pieces, paint))
+    rear = (0, tail - 0.1, floor)
+    bed = whole.add("tipper bed", hinge(rear, LEFT, dice.between(0.7, 1.0)), surface(pieces, paint))
     if not fixed_sides:
         for name, s in (("left", -1), ("right", 1)):
             pin = (s * x, 0, floor + wall + 0.01)
@@ -180,11 +177,7 @@ def _cab(dice: Dice, whole: Rig, car: Shell, paint: Look) -> None:
         (car.wide - 0.1, 0.02, car.tall - car.belt - skin), (0, nose + 0.04, (car.tall + car.belt - skin) / 2)
     )
     surfaces = (surface(pieces, paint), surface([pane], looks.glass(dice)))
-    cab = 0
-    if dice.chance(0.35):
-        cab = whole.add("cab", hinge((0, nose + 0.05, car.sill), RIGHT, 0.9), *surfaces)
-    else:
-        whole.dress(0, *surfaces)
+    cab = whole.add("cab", hinge((0, nose + 0.05, car.sill), RIGHT, 0.9), *surfaces)
     for name, s in (("left", -1), ("right", 1)):
         a, b = nose + 0.305, back - skin - 0.005
         leaf = [

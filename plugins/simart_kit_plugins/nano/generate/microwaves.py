@@ -187,11 +187,7 @@ def _basket(
         spot = (dice.sign() * (inside[0] / 2 - size[0] / 2 - 0.01), middle, level + 0.006)
         tub = moved([open_box(size, 0.004)], spot)
         cross = box((size[0], 0.004, size[2]), (spot[0], middle, level + size[2] / 2 + 0.006))
-        look = looks.plastic(dice)
-        if dice.chance(0.5):
-            kit.fix([*tub, cross], look, number)
-        else:
-            kit.add("cutlery basket", free(), [([*tub, cross], look)], number)
+        kit.add("cutlery basket", free(), [([*tub, cross], looks.plastic(dice))], number)
 
 
 def _arm(dice: Dice, kit: Assembly, reach: float, level: float, below: bool) -> None:

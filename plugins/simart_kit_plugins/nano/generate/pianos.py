@@ -25,15 +25,14 @@ def _piano(dice: Dice) -> Sequence[Body]:
 
 
 def _keys(made: Assembly, dice: Dice, width: float, front_y: float, level: float, look: Look) -> None:
-    """White and black keys, most of them fixed, on a key bed."""
+    """White and black keys on a key bed; the white ones of a short keyboard move."""
     count = dice.pick((52, 45, 36, 22)) if width > 0.9 else dice.whole(8, 22)
     step, long = width / count, min(0.15, 0.13 * width + 0.02)
-    moving = set(range(count // 2 - 3, count // 2 - 3 + dice.whole(2, 8))) if dice.chance(0.6) else set()
     ivory, ebony = looks.ceramic(dice), looks.darker(looks.rubber(dice), 0.5)
     for k in range(count):
         x = (k + 0.5) * step - width / 2
         white = box((0.9 * step, long, 0.018), (x, front_y + long / 2, level + 0.009))
-        if k in moving:
+        if count < 30:
             motion = hinge((x, front_y + long, level + 0.018), (1, 0, 0), 0.055)
             made.add(Leaf("key", "key", (surface([white], ivory),), motion))
         else:

@@ -59,11 +59,7 @@ def _rollers(dice: Dice, whole: Rig, spots: Sequence[tuple[float, float, float]]
         if style < 0.2:
             whole.dress(0, surface([cylinder(radius, radius, 10) + [x, y, z - radius / 2]], look))
             continue
-        parent = 0
-        if style < 0.75:
-            parent = whole.add("caster", spin((x, y, z), UP), holder, name=f"caster_{number}")
-        else:
-            whole.dress(0, holder)
+        parent = whole.add("caster", spin((x, y, z), UP), holder, name=f"caster_{number}")
         whole.add("wheel", spin(hub, yaw @ RIGHT), tyre, parent=parent, name=f"wheel_{number}")
 
 
@@ -107,18 +103,11 @@ def _office_back(
         [(0, 0.1, height - 0.02), (0, edge + 0.03, height), (0, edge + 0.09, height + 0.35)], 0.018, 8
     )
     panels = (surface(shell, cover), surface([stem], frame))
-    if dice.chance(0.7):
-        whole.add(
-            "backrest",
-            hinge((0, edge, height), LEFT, dice.between(0.2, 0.6)),
-            *panels,
-            parent=seat,
-        )
-    else:
-        whole.dress(seat, *panels)
+    leans = hinge((0, edge, height), LEFT, dice.between(0.2, 0.6))
+    whole.add("backrest", leans, *panels, parent=seat)
     if dice.chance(0.3):
         return
-    sliding, rise = dice.chance(0.55), dice.between(0.18, 0.24)
+    rise = dice.between(0.18, 0.24)
     for name, side in (("left", -1), ("right", 1)):
         x = side * (width / 2 + 0.03)
         post = [
@@ -127,10 +116,7 @@ def _office_back(
         ]
         whole.dress(seat, surface(post, frame))
         pad = surface([box((0.08, 0.26, 0.03), (x, 0, height + rise + 0.02))], looks.darker(cover))
-        if sliding:
-            whole.add("armrest", slide(UP, 0.09), pad, parent=seat, name=f"{name}_armrest")
-        else:
-            whole.dress(seat, pad)
+        whole.add("armrest", slide(UP, 0.09), pad, parent=seat, name=f"{name}_armrest")
 
 
 def _swivel_stool(dice: Dice) -> list[Body]:
@@ -266,12 +252,11 @@ def _deck_chair(dice: Dice) -> list[Body]:
         )
     fold, knee = dice.between(0.0, 0.2) * long, -dice.between(0.15, 0.3) * long
     cover = looks.fabric(dice) if dice.chance(0.5) else frame
-    split = dice.chance(0.5)
     for low, high, part in ((-y, knee, "leg"), (knee, fold, "seat"), (fold, y, "back")):
         sect = surface(_slats(dice, width, low + 0.004, high - 0.004, level + 0.035, cover is frame), cover)
         if part == "back":
             whole.add("backrest", hinge((0, fold, level + 0.02), RIGHT, dice.between(0.8, 1.3)), sect)
-        elif part == "leg" and split:
+        elif part == "leg":
             whole.add("leg rest", hinge((0, knee, level + 0.02), LEFT, 0.5), sect)
         else:
             whole.dress(0, sect)

@@ -206,21 +206,15 @@ def _grill(dice: Dice) -> list[Body]:
 
 
 def _side_tables(dice: Dice, kit: Assembly, size: tuple[float, float], level: float) -> None:
-    """Boards at the ends, which may fold down."""
+    """Boards at the ends, which fold down."""
     for side in (-1, 1):
         if dice.chance(0.5):
             continue
         wide = dice.between(0.2, 0.4)
         x = side * size[0] / 2
         board = [box((wide, size[1] * 0.85, 0.02), (x + side * (wide / 2 + 0.008), 0, level))]
-        if dice.chance(0.5):
-            kit.add(
-                "side table",
-                hinge((x + side * 0.004, 0, level - 0.01), (0, side, 0), 1.55),
-                [(board, looks.wood(dice))],
-            )
-        else:
-            kit.fix(board, looks.wood(dice))
+        folds = hinge((x + side * 0.004, 0, level - 0.01), (0, side, 0), 1.55)
+        kit.add("side table", folds, [(board, looks.wood(dice))])
 
 
 def _kettle_grill(dice: Dice, kit: Assembly, coat: Look) -> list[Body]:

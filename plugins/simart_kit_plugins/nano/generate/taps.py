@@ -88,13 +88,9 @@ def _one_lever(dice: Dice, kit: Assembly, metal: Look) -> None:
         _top_lever(dice, kit, height, body, reach * dice.between(0.5, 1.0), metal)
         return
     line = _spout(dice, reach, height, radius)
-    if dice.chance(0.6):
-        line[0, 2] = 0.6 * height
-        motion = _both_ways(dice.between(0.7, 2.0), (0, 0, 0), (0, 0, 1))
-        spout = kit.add("spout", motion, [([tube(line, radius, 10)], metal)])
-    else:
-        spout = 0
-        kit.fix([tube(line, radius, 10)], metal)
+    line[0, 2] = 0.6 * height
+    motion = _both_ways(dice.between(0.7, 2.0), (0, 0, 0), (0, 0, 1))
+    spout = kit.add("spout", motion, [([tube(line, radius, 10)], metal)])
     if dice.chance(0.35):
         _pull_out(dice, kit, line, radius, metal, spout)
     _side_lever(dice, kit, body, height * dice.between(0.3, 0.5), metal)
@@ -178,10 +174,7 @@ def _two_handles(dice: Dice, kit: Assembly, metal: Look) -> None:
     pipe = ([tube(line, radius, 10)], metal)
     base = radius * dice.between(1.4, 2.2)
     kit.fix([cylinder(base, 0.02, 16) + [0, 0, 0.01]], metal)
-    if dice.chance(0.5):
-        kit.add("spout", _both_ways(dice.between(0.6, 1.6), (0, 0, 0), (0, 0, 1)), [pipe])
-    else:
-        kit.fix(*pipe)
+    kit.add("spout", _both_ways(dice.between(0.6, 1.6), (0, 0, 0), (0, 0, 1)), [pipe])
     if dice.chance(0.5):
         kit.fix([rod((-gap, 0, base), (gap, 0, base), base * 0.5, 10)], metal)
     else:
@@ -228,14 +221,8 @@ def _wall_tap(dice: Dice, kit: Assembly, metal: Look) -> None:
         (0, -off - reach, -radius - 0.03),
         (0, -off - reach, -radius - 0.06),
     ]
-    if dice.chance(0.6):
-        kit.add(
-            "spout",
-            _both_ways(dice.between(0.5, 1.5), (0, -off, 0), (0, 0, 1)),
-            [([tube(path, thin, 10)], metal)],
-        )
-    else:
-        kit.fix([tube(path, thin, 10)], metal)
+    aside = _both_ways(dice.between(0.5, 1.5), (0, -off, 0), (0, 0, 1))
+    kit.add("spout", aside, [([tube(path, thin, 10)], metal)])
     seed = dice.whole(0, 2**31)
     if dice.chance(0.6):
         for side in (-1, 1):

@@ -93,10 +93,10 @@ def _casements(dice: Dice, kit: Assembly, size: _Size, deep: float, look: Look) 
 
 
 def _hung(dice: Dice, kit: Assembly, size: _Size, deep: float, look: Look) -> None:
-    """Two sashes one above the other: the lower slides up, the upper may slide down."""
+    """Two sashes one above the other: the lower slides up, the upper slides down."""
     width, height = size
     thick, half = deep * 0.35, height / 2 + 0.015
-    both, pane_look, seed = dice.chance(0.5), looks.glass(dice), dice.whole(0, 2**31)
+    pane_look, seed = looks.glass(dice), dice.whole(0, 2**31)
     for way in (1, -1):
         bars, pane = _sash(Dice(seed), width - 0.004, half, thick)
         place = (0, thick + 0.004 if way > 0 else 2 * thick + 0.01, -way * (height - half - 0.004) / 2)
@@ -106,30 +106,22 @@ def _hung(dice: Dice, kit: Assembly, size: _Size, deep: float, look: Look) -> No
                 [(s * width / 4, -thick - 0.007, -half / 2 + 0.02) for s in (-1, 1)],
             )
         parts = [(moved(bars, place), look), (moved(pane, place), pane_look)]
-        if way > 0 or both:
-            name = "lower_sash" if way > 0 else "upper_sash"
-            kit.add("sash", slide((0, 0, way), height - half - 0.02), parts, name=name)
-        else:
-            for pieces, stuff in parts:
-                kit.fix(pieces, stuff)
+        name = "lower_sash" if way > 0 else "upper_sash"
+        kit.add("sash", slide((0, 0, way), height - half - 0.02), parts, name=name)
 
 
 def _sashes_aside(dice: Dice, kit: Assembly, size: _Size, deep: float, look: Look) -> None:
-    """Two to four sashes side by side in two tracks, of which some slide."""
+    """Two to four sashes side by side in two tracks."""
     width, height = size
     count, thick = dice.weighted([(3, 2), (1, 3), (1, 4)]), deep * 0.33
     step = width / count
-    only, pane_look, seed = dice.chance(0.4), looks.glass(dice), dice.whole(0, 2**31)
+    pane_look, seed = looks.glass(dice), dice.whole(0, 2**31)
     for k in range(count):
         bars, pane = _sash(Dice(seed), step + 0.02, height - 0.006, thick)
         x = (k - (count - 1) / 2) * (step - 0.026 / max(count - 1, 1))
         near = k in (1, 2) if count == 4 else k % 2 == 0
         place = (x, thick + 0.004 if near else 2 * thick + 0.01, 0)
         parts = [(moved(bars, place), look), (moved(pane, place), pane_look)]
-        if only and not near:
-            for pieces, stuff in parts:
-                kit.fix(pieces, stuff)
-            continue
         way = 1 if k < count / 2 else -1
         if count == 4:
             way = -1 if k in (1, 3) else 1

@@ -59,10 +59,7 @@ def _clamp(dice: Dice) -> list[Body]:
         lying(0.25 * thick, 0.08, X, 8) + top,
         *(ball_knob(0.4 * thick) + top + [s * 0.04, 0, 0] for s in (-1, 1)),
     ]
-    if dice.chance(0.5):
-        whole.add("tommy bar", slide(RIGHT, 0.025, -0.025), surface(grip, metal), parent=screw)
-    else:
-        whole.dress(screw, surface(grip, metal))
+    whole.add("tommy bar", slide(RIGHT, 0.025, -0.025), surface(grip, metal), parent=screw)
     return whole.bodies()
 
 
