@@ -28,11 +28,8 @@ _MANY = 256
 _WORTH = 0.3
 # Share of the surface that a part which lies loose may have.
 _CARRIED = 0.5
-# An object of a known category is recognised from this chance on; less of its parts' sureness is enough then.
-# It may be torn so much about what moves then, on average over the pieces.
-_KNOWN, _TORN, _EASE = 0.995, 0.15, 1 / 4
-# So it is from this chance on if it is hardly torn.
-_LIKELY, _HARDLY = 0.9, 0.012
+# An object of which the sides differ no more is recognised; this share of its parts' sureness is enough then.
+_ALIKE, _EASE = 0.002, 1 / 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,6 +98,7 @@ def predict(network: ArrayNetwork, cloud: Cloud, least: float, votes: int = VOTE
         least: parts less sure than this, of moving as one and of how, stay with the body; in an object that
             is recognised, parts less sure than `_EASE` of it.
         votes: from how many sides it is seen, 1..8; one of very many pieces is seen from one alone.
+            What is seen from one alone is not recognised.
     """
     said = say(network, cloud, _votes(cloud, votes))
     area = _areas(cloud)
@@ -109,26 +107,14 @@ def predict(network: ArrayNetwork, cloud: Cloud, least: float, votes: int = VOTE
     names = network.config.categories
     best = int(said.category.argmax())
     name = names[best - 1] if best else ""
-    recognised = bool(best) and is_known(float(said.category[best]), said.moves)
+    # What it has seen alike it reads alike from all sides; of what is new each side says something else.
+    recognised = bool(best) and said.discord <= _ALIKE
     least *= _EASE if recognised else 1.0
     parts = _sure(every, least)
     chances = dict(zip(names, said.category[1:].tolist(), strict=True))
     doubtful = tuple(part for part in every if part.certainty < least)
     piece_part = piece_parts([part.pieces for part in parts], cloud.count)
     return Prediction(parts, doubtful, piece_part, said.moves, name, recognised, chances, said.size)
-
-
-def is_known(chance: float, moves: FloatArray) -> bool:
-    """Whether an object is one of those that the network knows.
-
-    Of many a real object it is sure what that is and yet torn about what moves: it has seen none like it.
-
-    Args:
-        chance: of its category.
-        moves: (S,) chance of each piece to be of a moving part.
-    """
-    torn = float(np.minimum(moves, 1 - moves).mean())
-    return chance >= _LIKELY and torn <= (_TORN if chance >= _KNOWN else _HARDLY)
 
 
 def plausible(part: PredictedPart, area: FloatArray) -> PredictedPart:

@@ -17,6 +17,9 @@ from .scene import pieces_of
 from .store import stored
 from .turning import VIEWS, turned, turned_evidence
 
+# Less than this the sides always differ, by rounding and by chance.
+_LEAST = 1e-4
+
 
 @dataclass(frozen=True, eq=False)
 class Said:
@@ -28,6 +31,7 @@ class Said:
         label: (S, L) chances of what the piece's part is called.
         category: (C,) chances of what the object is.
         size: longest side [m], and the factor by which the sides differ about it, at least 1.
+        discord: how far the sides are from saying the same, see `discord`.
         tokens: (V, S', D) of each side, for `say_parts`; padded as in training.
     """
 
@@ -36,6 +40,7 @@ class Said:
     label: FloatArray
     category: FloatArray
     size: tuple[float, float]
+    discord: float
     tokens: Float32Array
 
 
@@ -64,14 +69,33 @@ def say(network: ArrayNetwork, cloud: Cloud, votes: int) -> Said:
     here = stored(nothing)
     read = network.read(rows_of([turned(here, *view) for view in VIEWS[:votes]]))
     count = cloud.count
+    moves, category = sigmoid(read.moves[:, :count]), softmax(read.category)
     return Said(
-        _mean(sigmoid(read.moves[:, :count])),
+        _mean(moves),
         _mean(sigmoid(read.together[:, :count, :count])),
         _mean(softmax(read.label[:, :count])),
-        _mean(softmax(read.category)),
+        _mean(category),
         (float(np.exp(read.size.mean())), float(np.exp(read.size.std()))),
+        discord(moves, category),
         read.tokens,
     )
+
+
+def discord(moves: Float32Array, category: Float32Array) -> float:
+    """How far several sides of an object are from saying the same of it; infinite for one side alone.
+
+    The geometric mean of how they differ about what moves (standard deviation, mean over the pieces) and
+    about what the object is (total variation from their mean, mean over the sides).
+
+    Args:
+        moves: (V, S) chance of each piece to be of a moving part.
+        category: (V, C) chances of what the object is.
+    """
+    if len(moves) < 2:
+        return float("inf")
+    of_moves = float(moves.std(axis=0).mean())
+    of_category = float(np.abs(category - category.mean(axis=0)).sum(axis=1).mean()) / 2
+    return float(np.sqrt((of_moves + _LEAST) * (of_category + _LEAST)))
 
 
 def say_parts(
