@@ -3,6 +3,7 @@
 import torch
 from simart_kit_plugins.simart.codec import nearest_codes
 from simart_kit_plugins.simart.training.grids import Grids, pack
+from simart_kit_plugins.simart.vqnano import search
 from simart_kit_plugins.simart.vqnano.blocks import neighbour_rows
 from simart_kit_plugins.simart.vqnano.model import VqNano
 from simart_kit_plugins.simart.vqnano.search import Trial, best_codes
@@ -53,6 +54,16 @@ def test_trying_candidates_costs_less_and_each_is_one_of_the_nearest():
         before, after = trial.costs(candidates[:, 0]).sum(), trial.costs(codes).sum()
     assert after < 0.99 * before
     assert torch.equal(model.encode(grids).codes[trial.picked], codes)
+
+
+def test_cells_are_tried_again_when_those_around_them_have_changed(monkeypatch):
+    model, grids = trained(candidates=6)
+    trial, features = trial_of(model, grids)
+    again = best_codes(model, trial.truth, features, trial.picked)
+    monkeypatch.setattr(search, "_SWEEPS", 1)
+    once = best_codes(model, trial.truth, features, trial.picked)
+    with torch.no_grad():
+        assert trial.costs(again).sum() < trial.costs(once).sum()
 
 
 def test_the_cost_of_a_cell_is_its_wrong_voxels_and_a_share_of_the_cross_entropy():

@@ -26,7 +26,7 @@ class VqNanoConfig(CodebookConfig):
         default=8, description="Codebooks: one, or one for each way that the cells beside a cell may be."
     )
     candidates: int = Field(
-        default=8, ge=1, description="Codes that encoding tries for a cell; 1 is the nearest, untried."
+        default=16, ge=1, description="Codes that encoding tries for a cell; 1 is the nearest, untried."
     )
     beta: float = Field(default=2.5, ge=0, description="Weight of the commitment loss.")
     dice_weight: float = Field(default=0.25, ge=0, description="Weight of the dice loss beside the BCE.")

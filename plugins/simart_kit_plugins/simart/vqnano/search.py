@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 # Cells tried at once are so many cells apart. They then share cells around; three apart they would not,
 # which finds codes that are no better, and takes three times as long.
 _APART = 2
+# How often each cell is tried: what is best for it depends on what was chosen around it.
+_SWEEPS = 2
 # What an unsure voxel costs beside a wrong one: it tells codes apart that get the same voxels right.
 _UNSURE = 0.3
 
@@ -73,6 +75,14 @@ def best_codes(model: VqNano, truth: Tensor, features: Tensor, picked: Tensor) -
         return codes
     trial = Trial(model, truth, picked, neighbour_rows(picked))
     group = _groups(picked)
+    for _ in range(_SWEEPS):
+        codes = _swept(trial, codes, candidates, group)
+    return codes
+
+
+def _swept(trial: Trial, codes: Tensor, candidates: Tensor, group: Tensor) -> Tensor:
+    """(K,) codes after each cell was tried once, where (K, C) candidates come back better than its own."""
+    codes = codes.clone()
     # Cells that come back right, and those around them too, have nothing to gain.
     worth = trial.around(trial.wrong(trial.logits(codes))) > 0
     for number in range(_APART**3):
@@ -80,7 +90,7 @@ def best_codes(model: VqNano, truth: Tensor, features: Tensor, picked: Tensor) -
         if not len(members):
             continue
         least = trial.around(trial.costs(codes))[members]
-        for choice in candidates.T[1:]:
+        for choice in candidates.T:
             tried = codes.clone()
             tried[members] = choice[members]
             cost = trial.around(trial.costs(tried))[members]
