@@ -16,6 +16,7 @@ from simart_kit_exporters.usd.frames import principal_axes, turn_x_to
 from simart_kit.arrays import unit
 from simart_kit.asset import Asset, Joint
 from simart_kit.kinematics import forward, sample_positions
+from simart_kit.lint.usd import lint_usd
 from simart_kit.testing.meshes import cabinet_asset, chain_asset, static_asset
 
 from .export_cases import overlapping_asset
@@ -232,6 +233,19 @@ def test_a_free_joint_is_a_body_without_a_joint_and_is_told(tmp_path: Path) -> N
     asset = replace(chain, joints=(chain.joints[0], free))
     assert set(read_joints(open_stage(export(asset, tmp_path / "usd")))) == {"FixedBase", "arm_hinge"}
     assert any("free joint" in s and "post_spin" in s for s in UsdExporter().unsupported(asset))
+
+
+def test_what_lies_loose_and_carries_something_is_an_articulation_of_its_own(tmp_path: Path) -> None:
+    chain = chain_asset()
+    free = Joint("post_spin", "free", "base", "post", (0.0, 0.0, 0.1))
+    file = export(replace(chain, joints=(chain.joints[0], free)), tmp_path / "usd")
+    stage = open_stage(file)
+    roots = {p.GetName() for p in stage.Traverse() if p.HasAPI(UsdPhysics.ArticulationRootAPI)}
+    assert roots == {"FixedBase", "post"}
+    articulations = parsed(stage)["Articulation"].values()
+    links = [{path.name for path in one.articulatedBodies if not path.isEmpty} for one in articulations]
+    assert {"arm", "post"} in links
+    assert not [found for found in lint_usd(file) if found.rule == "articulation-missing"]
 
 
 def test_what_is_lost_is_told_with_its_names() -> None:

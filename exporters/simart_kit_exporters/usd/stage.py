@@ -104,8 +104,10 @@ def _define_joints(draft: Draft, asset: Asset) -> None:
         scope = _scope(stage, JOINTS)
         if not asset.floating:
             define_fixed_base(stage, scope.AppendChild("FixedBase"), base)
-        elif jointed:
-            UsdPhysics.ArticulationRootAPI.Apply(stage.GetPrimAtPath(base))
+        # What lies loose and carries something, such as a jug with a lid, is an articulation of its own.
+        loose = [j.child for j in asset.joints if j.kind == "free"] + [asset.root.name] * asset.floating
+        for name in sorted({j.parent for j in jointed} & set(loose)):
+            UsdPhysics.ArticulationRootAPI.Apply(stage.GetPrimAtPath(base.ReplaceName(name)))
         for joint in jointed:
             origin = rest_origin(asset, joint.child) - rest_origin(asset, joint.parent)
             define_joint(stage, scope.AppendChild(joint.name), joint, origin)
