@@ -47,7 +47,12 @@ class Nano(Segmenter):
             description="Parts less sure than this stay with the body; a quarter of it is enough in an "
             "object that is recognised.",
         )
-        votes: int = Field(default=4, ge=1, le=8, description="From how many sides it is looked at.")
+        votes: int = Field(
+            default=4,
+            ge=1,
+            le=8,
+            description="From how many sides it is looked at; from one alone nothing is recognised.",
+        )
         pool: bool = Field(default=True, description="Add what `geometric` finds, and keep what can move.")
 
     options: Options

@@ -26,14 +26,18 @@ def _loop(middle: ArrayLike, across: float, along: float, thick: float, width: f
 
 def _lying(dice: Dice, whole: Rig) -> list[Body]:
     """Flat on the table any way round, or hung upright."""
-    yaw = rotation(UP, dice.between(-0.6, 0.6) if dice.chance(0.5) else 0.0)
+    yaw = _askew(dice)
     return whole.bodies(yaw @ rotation(RIGHT, -np.pi / 2) if dice.chance(0.25) else yaw)
 
 
 def _held(dice: Dice, whole: Rig) -> list[Body]:
     """As a hand holds them: the arm that moves above the one that stays, which looks the same."""
-    yaw = rotation(UP, dice.between(-0.6, 0.6) if dice.chance(0.5) else 0.0)
-    return whole.bodies(yaw @ rotation((0, 1, 0), np.pi / 2))
+    return whole.bodies(_askew(dice) @ rotation((0, 1, 0), np.pi / 2))
+
+
+def _askew(dice: Dice) -> FloatArray:
+    """(3, 3) some way round about z, half of the time."""
+    return rotation(UP, dice.between(-0.6, 0.6) if dice.chance(0.5) else 0.0)
 
 
 def _scissors(dice: Dice) -> list[Body]:
