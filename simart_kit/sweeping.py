@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -24,6 +25,7 @@ _DEEP = 0.003  # of the moving part's size: shallower crossings are surfaces tha
 _MOST_HITS = 6  # faces that a point may meet in one step
 _OPPOSITE = -0.5  # cosine between faces that are the two sides of a board
 _STEP = 1e-6  # of the size
+_ALONG = 0.3  # sine of the angle up to which a point moves along its own surface
 
 
 class Sweep:
@@ -34,9 +36,12 @@ class Sweep:
         moving: (F, 3) vertex indices of the faces that move, F > 0.
         still: (G, 3) those of the faces that do not.
         seed: of the sampling.
+        holes: whether what stands in the other at rest has a hole there, modelled or not: rods in sleeves.
     """
 
-    def __init__(self, vertices: FloatArray, moving: IntArray, still: IntArray, seed: int = 0) -> None:
+    def __init__(
+        self, vertices: FloatArray, moving: IntArray, still: IntArray, seed: int = 0, *, holes: bool = False
+    ) -> None:
         rng = np.random.default_rng(seed)
         mine, others = vertices[moving], vertices[still]
         lower, upper = bounds_of(mine.reshape(-1, 3))
@@ -46,9 +51,9 @@ class Sweep:
         still = still[near]
         self._deep = _DEEP * reach
         self._still, self._moving = _Surface(vertices, still), _Surface(vertices, moving)
-        # What lies inside the other at rest, as hinge knuckles do, only leaves it: not counted.
-        self._points = self._still.outside(sample_surface(mine, POINTS, rng))
-        self._others = self._moving.outside(sample_surface(others[near], POINTS, rng))
+        self._mine = _Samples.of(mine, self._still, rng)
+        self._others = _Samples.of(others[near], self._moving, rng)
+        self._holes = holes
 
     def blocked(self, motion: Motion, stops: FloatArray) -> FloatArray:
         """(K,) share of points that have passed through the other surface on the way to each stop.
@@ -57,14 +62,14 @@ class Sweep:
             motion: the movement.
             stops: (K,) positions away from 0, in order [rad | m].
         """
-        mine = _Paths(self._still, self._points, self._deep)
-        others = _Paths(self._moving, self._others, self._deep)
+        mine = _Paths(self._still, self._mine, self._deep, self._moving if self._holes else None)
+        others = _Paths(self._moving, self._others, self._deep, self._still if self._holes else None)
         shares = np.zeros(len(stops))
         for step, stop in enumerate(stops):
             posed = motion(float(stop))
             # Seen from the moving surface, the still points move the other way.
             most = max(mine.advance(posed), others.advance(np.asarray(np.linalg.inv(posed))))
-            shares[step] = most / max(len(self._points), 1)
+            shares[step] = most / max(len(self._mine.points), 1)
         return shares
 
     def free(self, motion: Motion, limit: float, steps: int = 30) -> float:
@@ -128,15 +133,59 @@ class _Surface:
         enters = np.einsum("ni,ni->n", self.normals[nexts], ways) < 0
         return np.asarray((nexts >= 0) & ~((self.pieces[nexts] == self.pieces[faces]) & enters))
 
-    def outside(self, points: FloatArray) -> FloatArray:
-        """The points that are not enclosed by one connected piece on all six sides."""
-        met = np.zeros((6, len(points)), dtype=np.int64)
+    def encloses(self, points: FloatArray) -> BoolArray:
+        """Whether (N, 3) points are enclosed by one connected piece on all six sides."""
+        met = self._around(points, 1)[:, 0]
+        return np.asarray((met == met[0]).all(axis=0) & (met[0] >= 0))
+
+    def filled(self, places: FloatArray, ways: FloatArray, near: float) -> BoolArray:
+        """Whether one connected piece encloses what is beside (N, 3) places, before and behind on these ways.
+
+        Another piece may be between, as where a rod ends in a knob.
+        """
+        found = np.zeros(len(places), dtype=bool)
+        along = 1.5 * near * ways / np.maximum(np.linalg.norm(ways, axis=1, keepdims=True), 1e-30)
+        for side in near * np.concatenate([np.eye(3), -np.eye(3)]):
+            left = np.flatnonzero(~found)
+            both = np.concatenate([places[left] + side + along[left], places[left] + side - along[left]])
+            met = self._around(both, 2)
+            inside = [(met == one).any(axis=1).all(axis=0) & (one >= 0) for one in met[0]]
+            found[left] = np.any(inside, axis=0).reshape(2, -1).all(axis=0)
+        return found
+
+    def _around(self, points: FloatArray, count: int) -> IntArray:
+        """(6, count, N) pieces that are met first from (N, 3) points along both ways of all axes, or -1."""
+        met = np.full((6, count, len(points)), -1, dtype=np.int64)
         for row, direction in enumerate(np.concatenate([np.eye(3), -np.eye(3)])):
             # A little off the axis: rays along a wall's plane would slip through its edge.
-            faces, _ = self.rays.first(points, direction + 0.01 * np.array([0.3, -0.5, 0.7]))
-            met[row] = np.where(faces >= 0, self.pieces[faces] if len(self.pieces) else -1, -1)
-        enclosed = (met == met[0]).all(axis=0) & (met[0] >= 0)
-        return np.asarray(points[~enclosed])
+            way = direction + 0.01 * np.array([0.3, -0.5, 0.7])
+            start, going = points, np.arange(len(points))
+            for column in range(count):
+                faces, distance = self.rays.first(start, np.broadcast_to(way, start.shape))
+                there = faces >= 0
+                start, going = (start + (distance + self.step)[:, None] * way)[there], going[there]
+                met[row, column, going] = self.pieces[faces[there]]
+        return met
+
+
+@dataclass(frozen=True, eq=False)
+class _Samples:
+    """Points of a surface.
+
+    Attributes:
+        points: (N, 3) at rest.
+        normals: (N, 3) of unit length.
+    """
+
+    points: FloatArray
+    normals: FloatArray
+
+    @classmethod
+    def of(cls, triangles: FloatArray, other: _Surface, rng: np.random.Generator) -> _Samples:
+        """Of (F, 3, 3) triangles; what lies inside the other at rest, as knuckles do, only leaves it."""
+        faces, points = sample_faces(triangles, POINTS, rng)
+        outside = ~other.encloses(points)
+        return cls(points[outside], unit_normals(triangles[faces[outside]]))
 
 
 class _Paths:
@@ -146,8 +195,11 @@ class _Paths:
     comes out on the far side is through something thin.
     """
 
-    def __init__(self, target: _Surface, points: FloatArray, deep: float) -> None:
+    def __init__(self, target: _Surface, samples: _Samples, deep: float, own: _Surface | None) -> None:
+        points = samples.points
         self._target, self._points, self._deep = target, points, deep
+        self._own = own  # of the points, where what slides on in what it fills at rest is not stopped
+        self._flat, self._normals = np.zeros(len(points), dtype=bool), samples.normals
         self._now, self._lead = points, 1.0
         self._within = np.full(len(points), -1, dtype=np.int64)  # piece that a point is in, -1 for none
         self._passed = np.zeros(len(points), dtype=bool)
@@ -161,6 +213,9 @@ class _Paths:
             return 0
         start, self._now = self._now, move(pose, self._points)
         way = self._now - start
+        if self._own is not None:
+            speed = np.einsum("ni,ni->n", way, self._normals @ pose[:3, :3].T)
+            self._flat = np.abs(speed) < _ALONG * np.linalg.norm(way, axis=1)
         # A point that touches at rest starts a little way off the surface; every later step of it starts a
         # little way back, lest a surface just where two steps meet be missed.
         length = np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-30)
@@ -185,6 +240,9 @@ class _Paths:
         sense = np.sign(np.einsum("ni,ni->n", normal, way[going]))
         enters = within < 0
         enters[enters] = target.entered(faces[enters], hit[enters], way[going][enters])
+        if self._own is not None:
+            slides = enters & self._flat[going]
+            enters[slides] = ~self._own.filled(hit[slides], way[going][slides], self._deep)
         leaves = (within == target.pieces[faces]) & (sense * self._sense[going] < 0)
         depth = np.abs(np.einsum("ni,ni->n", hit - self._hit[going], self._normal[going]))
         through = np.einsum("ni,ni->n", normal, self._normal[going]) < _OPPOSITE

@@ -171,7 +171,7 @@ def _swept(
             faces[part] += len(vertices) * len(places)
             places.append(move(posed[name], vertices))
         vertices = np.concatenate(places)
-    sweep = Sweep(vertices, faces[moving], faces[~(moving | without)], seed)
+    sweep = Sweep(vertices, faces[moving], faces[~(moving | without)], seed, holes=True)
     return FreeRange(*free_range(joint, sweep, steps))
 
 

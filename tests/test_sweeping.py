@@ -30,11 +30,11 @@ def triangles(bounds: Sequence[Bounds]) -> FloatArray:
     return boxes_mesh(bounds).triangles
 
 
-def sweep_of(moving: FloatArray, still: FloatArray, seed: int = 0) -> Sweep:
+def sweep_of(moving: FloatArray, still: FloatArray, seed: int = 0, holes: bool = False) -> Sweep:
     """Of (F, 3, 3) and (G, 3, 3) triangles, none of which share a vertex."""
     faces = np.arange(3 * (len(moving) + len(still))).reshape(-1, 3)
     vertices = np.concatenate([moving, still]).reshape(-1, 3)
-    return Sweep(vertices, faces[: len(moving)], faces[len(moving) :], seed)
+    return Sweep(vertices, faces[: len(moving)], faces[len(moving) :], seed, holes=holes)
 
 
 def along(*direction: float) -> Motion:
@@ -165,6 +165,41 @@ class TestOverlapAtRest:
         post: list[Bounds] = [((-0.2, -0.1, 0.35), (-0.001, 0.1, 0.55))]
         free = sweep_of(triangles(door), triangles(post)).free(about((0, 0, -1)), np.pi / 2)
         assert free == np.pi / 2
+
+
+class TestHoles:
+    """A rod in a solid sleeve, whose hole nobody modelled; a collar keeps it from going in farther."""
+
+    sleeve: ClassVar[list[Bounds]] = [((-0.2, -0.2, 0.0), (0.2, 0.2, 1.0))]
+    rod: ClassVar[list[Bounds]] = [((-0.1, -0.1, 0.5), (0.1, 0.1, 2.0))]
+    collar: ClassVar[Bounds] = ((-0.15, -0.15, 1.3), (0.15, 0.15, 1.4))
+
+    def free(self, moving: Sequence[Bounds], way: Sequence[float], *, holes: bool = True) -> float:
+        return sweep_of(triangles(moving), triangles(self.sleeve), holes=holes).free(along(*way), 0.5, 50)
+
+    def test_a_rod_slides_in_its_sleeve_if_there_may_be_holes(self) -> None:
+        assert self.free(self.rod, (0, 0, -1)) == 0.5
+        assert self.free(self.rod, (0, 0, -1), holes=False) < 0.1
+
+    def test_a_rod_that_ends_in_a_knob_does_as_well(self) -> None:
+        knob: Bounds = ((-0.15, -0.15, 1.9), (0.15, 0.15, 2.2))
+        assert self.free([*self.rod, knob], (0, 0, -1)) == 0.5
+
+    def test_its_collar_stops_it(self) -> None:
+        """The collar is 0.3 above the sleeve."""
+        free = self.free([*self.rod, self.collar], (0, 0, -1))
+        assert 0.3 <= free <= 0.3 + DEEP * 1.6 + 0.5 / 50
+
+    def test_a_rod_that_only_touches_has_no_hole(self) -> None:
+        assert self.free([((-0.1, -0.1, 1.0), (0.1, 0.1, 2.0))], (0, 0, -1)) < 0.1
+
+    def test_a_rod_is_not_pushed_through_a_side_of_its_sleeve(self) -> None:
+        assert self.free(self.rod, (1, 0, 0)) < 0.2
+
+    def test_a_sleeve_moves_along_its_rod(self) -> None:
+        assert (
+            sweep_of(triangles(self.sleeve), triangles(self.rod), holes=True).free(along(0, 0, 1), 0.5) == 0.5
+        )
 
 
 def test_nothing_stands_in_the_way_of_nothing() -> None:

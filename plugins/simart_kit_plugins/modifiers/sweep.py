@@ -23,6 +23,8 @@ class Sweep(Modifier):
 
     A joint that comes no farther than a quarter of its way has the wrong axis, mostly: fixed and flagged it
     harms nothing. So is one that was given no way at all.
+    What stands in another part at rest, as a rod in its sleeve, may slide on in it, whether or not there is a
+    hole.
     What its own joint takes out of the way is no obstacle: a rack keeps its range behind a door, and a note.
     """
 

@@ -96,7 +96,7 @@ def _better(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
 
 
 def _sweep(mesh: Mesh, faces: BoolArray, against: BoolArray) -> Sweep:
-    return Sweep(mesh.vertices, mesh.faces[faces], mesh.faces[against])
+    return Sweep(mesh.vertices, mesh.faces[faces], mesh.faces[against], holes=True)
 
 
 def _stuck(joint: Joint, sweep: Sweep) -> bool:

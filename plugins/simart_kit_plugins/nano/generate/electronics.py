@@ -302,7 +302,7 @@ def _mouse(dice: Dice) -> list[Body]:
     spot = np.array([0, -0.3 * depth, 0.82 * high])
     whole.add("wheel", spin(spot, RIGHT), surface([lying(0.011, 0.006, X, 16) + spot], looks.rubber(dice)))
     for k in range(dice.whole(0, 2)):
-        key = box((0.003, 0.015, 0.006), (-0.49 * width, -0.05 * depth + 0.018 * k, 0.55 * high))
+        key = box((0.003, 0.015, 0.006), (-0.49 * width, -seam + 0.012 + 0.018 * k, 0.55 * high))
         whole.add("side button", press(0.0015, RIGHT), surface([key], looks.rubber(dice)))
     return whole.bodies()
 

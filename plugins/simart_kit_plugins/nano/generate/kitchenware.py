@@ -224,7 +224,7 @@ def _soap_dispenser(dice: Dice) -> list[Body]:
     rise, reach = dice.between(0.02, 0.035), radius * dice.between(1.0, 1.8)
     top = height + 0.016 + rise
     pump: Pieces = [
-        cylinder(radius * 0.16, rise, 10) + [0, 0, height + 0.016 + rise / 2],
+        rod((0, 0, height + 0.016 - 0.8 * rise), (0, 0, top), radius * 0.16, 10),
         cylinder(radius * 0.35, 0.008, 14) + [0, 0, top],
     ]
     pump.append(tube([(0, 0, top), (0, -reach, top), (0, -reach - 0.004, top - 0.008)], radius * 0.12, 8))

@@ -20,7 +20,7 @@ def _van(dice: Dice) -> list[Body]:
     long, wide, tall = dice.between(4.2, 5.6), dice.between(1.7, 2.0), dice.between(1.8, 2.4)
     sill, paint, glass = dice.between(0.3, 0.4), looks.painted_metal(dice), looks.glass(dice)
     x, nose, tail, skin = wide / 2, -long / 2, long / 2, 0.05
-    first = nose + dice.between(0.5, 0.9)
+    first = nose + dice.between(0.75, 1.15)  # behind the wheels, which doors would swing into
     middle = first + dice.between(0.95, 1.15)
     last, belt = middle + dice.between(1.0, 1.3), 1.05
     car = Shell(long, wide, tall, sill, belt, (first, middle, last))
@@ -56,7 +56,7 @@ def _van(dice: Dice) -> list[Body]:
         travel = min(last - middle, tail - last) - 0.02
         whole.add("sliding door", slide(BACK, travel), surface(door, paint), surface([pane], glass))
     _van_back(dice, whole, car, paint)
-    wheels(dice, whole, car, (first - 0.05, tail - 0.2 * long), False)
+    wheels(dice, whole, car, (first - 0.58, tail - 0.2 * long), False)
     if dice.chance(0.5):
         steering(whole, np.array([-0.25 * wide, first + 0.35, belt + 0.05]), looks.rubber(dice))
     return whole.bodies(scale=size_of(dice))

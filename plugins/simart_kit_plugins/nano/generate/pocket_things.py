@@ -138,7 +138,7 @@ def _usb_stick(dice: Dice) -> list[Body]:
     elif style < 0.7:
         whole = Rig(surface([body], shell), surface([plug], steel))
         pin = np.array([0, 0.3 * long, 0])
-        reach = 0.8 * long + 0.016
+        reach = 0.93 * long + 0.017
         sleeve = [
             box((wide + 0.001, reach, 0.001), (0, 0.42 * long - reach / 2, s * (thick / 2 + 0.001)))
             for s in (-1, 1)

@@ -95,8 +95,9 @@ def _gate(dice: Dice, whole: Rig, ends: tuple[FloatArray, FloatArray], count: in
     """The rear gate of a trolley between two edges of (2, 3) points, with a child's seat."""
     (low, top), thin = ends, 0.0035
     width, high = float(np.ptp(top[:, 0])), float(top[0, 2] - low[0, 2])
-    inner = [0.94, 1, 1]
-    gate = _mesh(low * inner + [0, -0.012, 0.01], top * inner + [0, -0.012, -0.02], count, thin)
+    # Narrower than the sides where it swings to, and above the floor, which rises there.
+    inner = [0.88, 1, 1]
+    gate = _mesh(low * inner + [0, -0.012, 0.024], top * inner + [0, -0.012, -0.02], count, thin)
     swing = whole.add("rear gate", hinge(top[0] + [0, -0.012, -0.02], LEFT, 1.3), surface(gate, look))
     if dice.chance(0.7):
         pin = np.array([0, low[0, 1] - 0.03, low[0, 2] + 0.45 * high])

@@ -50,18 +50,21 @@ def wheels(dice: Dice, whole: Rig, car: Shell, places: tuple[float, ...], steer:
     form = axle_wheel(dice, radius)
     half = max(float(np.abs(piece[..., 0]).max()) for piece in form)
     rubber, metal = looks.rubber(dice), looks.metal(dice)
-    level = max(car.sill + 0.03, radius * 0.9)
+    level, turn = max(car.sill + 0.03, radius * 0.9), dice.between(0.22, 0.4)
     for row, y in enumerate(places):
-        whole.dress(0, surface([lying(0.03, car.wide + 0.02, X, 8) + [0, y, level]], metal))
+        steers = steer and row == 0
+        # Those that steer stand off as far as they swing in.
+        out = car.wide / 2 + (radius * float(np.sin(turn)) if steers else 0.0)
+        whole.dress(0, surface([lying(0.03, 2 * out + 0.02, X, 8) + [0, y, level]], metal))
         for name, s in (("left", -1), ("right", 1)):
-            spot = np.array([s * (car.wide / 2 + half + 0.015), y, level])
+            spot = np.array([s * (out + half + 0.015), y, level])
             label = f"{name}_{('front', 'rear', 'last', 'fourth')[row]}"
             parent = 0
-            if steer and row == 0:
+            if steers:
                 knuckle = surface([box((0.06, 0.06, 0.16), spot - [s * (half + 0.02), 0, 0])], metal)
                 pin = spot - [s * (half + 0.02), 0, 0]
                 parent = whole.add(
-                    "steering knuckle", hinge(pin, UP, 0.45, -0.45), knuckle, name=f"{label}_knuckle"
+                    "steering knuckle", hinge(pin, UP, turn, -turn), knuckle, name=f"{label}_knuckle"
                 )
             disc = lying(0.55 * radius, 2 * half + 0.006, X, 14) + spot
             whole.add(

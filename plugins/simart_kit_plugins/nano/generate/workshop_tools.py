@@ -55,9 +55,10 @@ def _clamp(dice: Dice) -> list[Body]:
         surface([cylinder(0.015, 0.008, 14) + tip, ball_knob(0.5 * thick) + tip], metal),
         parent=screw,
     )
+    half = 0.026 + 1.2 * thick  # the knobs stop at the screw's head
     grip = [
-        lying(0.25 * thick, 0.08, X, 8) + top,
-        *(ball_knob(0.4 * thick) + top + [s * 0.04, 0, 0] for s in (-1, 1)),
+        lying(0.25 * thick, 2 * half, X, 8) + top,
+        *(ball_knob(0.4 * thick) + top + [s * half, 0, 0] for s in (-1, 1)),
     ]
     whole.add("tommy bar", slide(RIGHT, 0.025, -0.025), surface(grip, metal), parent=screw)
     return whole.bodies()
@@ -91,12 +92,13 @@ def _vise(dice: Dice) -> list[Body]:
         surface([plates], metal),
         parent=parent,
     )
-    at = np.array([0, face - 0.3 * long, 0.03 + 0.36 * high])
+    at = np.array([0, face - 0.33 * long, 0.03 + 0.36 * high])
     screw = whole.add(
-        "screw", spin(at, FRONT), surface([lying(0.1 * wide, 0.12 * long, Y, 12) + at], metal), parent=moving
+        "screw", spin(at, FRONT), surface([lying(0.1 * wide, 0.2 * long, Y, 12) + at], metal), parent=moving
     )
-    bar = [rod(at + [-0.7 * wide, -0.03 * long, 0], at + [0.7 * wide, -0.03 * long, 0], 0.045 * wide, 8)]
-    bar += [ball_knob(0.08 * wide) + at + [s * 0.7 * wide, -0.03 * long, 0] for s in (-1, 1)]
+    # Its knobs pass before the jaw and stop at the screw.
+    bar = [rod(at + [-0.7 * wide, -0.06 * long, 0], at + [0.7 * wide, -0.06 * long, 0], 0.045 * wide, 8)]
+    bar += [ball_knob(0.08 * wide) + at + [s * 0.7 * wide, -0.06 * long, 0] for s in (-1, 1)]
     whole.add("tommy bar", slide(RIGHT, 0.5 * wide, -0.5 * wide), surface(bar, metal), parent=screw)
     return whole.bodies()
 
@@ -184,8 +186,10 @@ def _corkscrew(dice: Dice) -> list[Body]:
         torus(radius, 0.003, 18, 0.006),
         *around([rod((radius, 0, 0), (0.5 * radius, 0, 0.5 * tall), 0.003)], dice.whole(2, 4), 0.7),
     ]
-    bell.append(cylinder(0.6 * radius, 0.02, 14) + [0, 0, 0.5 * tall])
-    bell.append(box((2.4 * radius, 0.012, 0.012), (0, 0, 0.5 * tall)))
+    hole, collar = 0.0055, 0.6 * radius
+    bell.append(torus((collar + hole) / 2, (collar - hole) / 2, 14, 0.01) + [0, 0, 0.5 * tall])
+    lug = 1.2 * radius - hole - 0.001
+    bell.append(boxes((lug, 0.012, 0.012), [(s * (1.2 * radius - lug / 2), 0, 0.5 * tall) for s in (-1, 1)]))
     whole = Rig(surface(bell, look), label="bell")
     run = np.linspace(0, 1, 25)
     helix = np.column_stack(
