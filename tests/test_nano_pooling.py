@@ -83,6 +83,20 @@ def test_drawers_that_are_taken_for_one_are_several():
     assert [p.guess.label for p in pooled(MESH, [lump], [proposal([1])])] == ["lump"]
 
 
+def test_who_knows_the_object_is_told_of_nothing_else_and_of_no_other_joint():
+    own = proposal([3], "lid", axis=(1.0, 0.0, 0.0), score=0.5)
+    own = replace(own, joint=replace(own.joint, confidence=0.1))
+    others = [proposal([3], "lid", axis=(0.0, 0.0, 1.0)), proposal([1, 2], "drawer")]
+    (found,) = pooled(MESH, [own], others, known=True)
+    assert found.joint == own.joint
+    assert len(pooled(MESH, [own], others)) == 2
+
+
+def test_who_knows_the_object_and_finds_nothing_hears_the_other():
+    (found,) = pooled(MESH, [], [proposal([3], "lid", axis=(0.0, 0.0, 1.0))], known=True)
+    assert found.guess.label == "lid"
+
+
 def test_a_carrier_is_found_again_among_those_kept():
     drawer, knob = proposal([1], "drawer"), proposal([2], "knob", parent=0)
     found = pooled(MESH, [proposal([1], "front")], [drawer, knob])

@@ -10,7 +10,7 @@ import numpy as np
 
 from simart_kit.sweeping import Sweep, free_range
 
-from .proposals import Proposal, overlap
+from .proposals import Proposal, only, overlap
 
 if TYPE_CHECKING:
     from simart_kit import Joint, Mesh
@@ -28,7 +28,9 @@ _SURER = 0.25
 _FREE, _STEPS = 0.25, 8
 
 
-def pooled(mesh: Mesh, first: Sequence[Proposal], second: Sequence[Proposal]) -> list[Proposal]:
+def pooled(
+    mesh: Mesh, first: Sequence[Proposal], second: Sequence[Proposal], *, known: bool = False
+) -> list[Proposal]:
     """All that the first proposes, and what the second adds to it.
 
     What both find is there once, as the first says, but with the second's joint if that is much surer, or
@@ -40,9 +42,15 @@ def pooled(mesh: Mesh, first: Sequence[Proposal], second: Sequence[Proposal]) ->
         mesh: of the faces.
         first: proposals, none of which share a face.
         second: proposals, the surest first.
+        known: whether the first, if it says anything, knows the object: then all that the second has a say in
+            is what the first takes for one.
     """
     areas = mesh.face_areas
     single = [k for k, proposal in enumerate(first) if not _lumped(areas, proposal, second)]
+    if known and first:
+        lumps = [proposal for k, proposal in enumerate(first) if k not in single]
+        inside = [any(_lies_in(areas, other, lump) for lump in lumps) for other in second]
+        second = only(second, np.flatnonzero(inside).tolist())
     kept = [first[k] for k in single]
     place = {("first", k): row for row, k in enumerate(single)}
     taken = np.zeros(len(areas), dtype=np.bool_)
@@ -76,10 +84,14 @@ def _lumped(areas: FloatArray, one: Proposal, others: Sequence[Proposal]) -> boo
     shares = [
         float(areas[other.faces & one.faces].sum() / areas[one.faces].sum())
         for other in others
-        if other.joint.kind == "prismatic"
-        and areas[other.faces & one.faces].sum() >= _WITHIN * areas[other.faces].sum()
+        if other.joint.kind == "prismatic" and _lies_in(areas, other, one)
     ]
     return sum(share >= _SHARE for share in shares) > 1 and sum(shares) >= _SAME
+
+
+def _lies_in(areas: FloatArray, one: Proposal, other: Proposal) -> bool:
+    """Whether most of a proposal is part of another."""
+    return bool(areas[one.faces & other.faces].sum() >= _WITHIN * areas[one.faces].sum())
 
 
 def _better(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:

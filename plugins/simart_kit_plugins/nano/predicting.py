@@ -29,7 +29,7 @@ _WORTH = 0.3
 # Share of the surface that a part which lies loose may have.
 _CARRIED = 0.5
 # An object of which the sides differ no more is recognised; this share of its parts' sureness is enough then.
-_ALIKE, _EASE = 0.002, 1 / 4
+_ALIKE, _EASE = 0.0008, 1 / 4
 
 
 @dataclass(frozen=True, eq=False)

@@ -118,8 +118,10 @@ class Nano(Segmenter):
             geometry = of_geometry(mesh, self.seed)
             proposals = with_rotors(mesh, proposals, geometry)
             # Borders and lines by geometry are exact, but who knows the object finds more of it.
-            first, second = (proposals, geometry) if said.recognised else (geometry, proposals)
-            proposals = with_hardware(mesh, seen.face_piece, pooled(mesh, first, second))
+            known = said.recognised
+            first, second = (proposals, geometry) if known else (geometry, proposals)
+            both = pooled(mesh, first, second, known=known)
+            proposals = with_hardware(mesh, seen.face_piece, both)
         if spec is not None:
             proposals = chosen(mesh, said, seen, proposals, spec, self.seed)
         kept = with_body(mesh, proposals)
