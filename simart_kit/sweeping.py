@@ -147,6 +147,8 @@ class _Surface:
         along = 1.5 * near * ways / np.maximum(np.linalg.norm(ways, axis=1, keepdims=True), 1e-30)
         for side in near * np.concatenate([np.eye(3), -np.eye(3)]):
             left = np.flatnonzero(~found)
+            if not len(left):
+                break
             both = np.concatenate([places[left] + side + along[left], places[left] + side - along[left]])
             met = self._around(both, 2)
             inside = [(met == one).any(axis=1).all(axis=0) & (one >= 0) for one in met[0]]
@@ -161,7 +163,7 @@ class _Surface:
             way = direction + 0.01 * np.array([0.3, -0.5, 0.7])
             start, going = points, np.arange(len(points))
             for column in range(count):
-                faces, distance = self.rays.first(start, np.broadcast_to(way, start.shape))
+                faces, distance = self.rays.first(start, way)
                 there = faces >= 0
                 start, going = (start + (distance + self.step)[:, None] * way)[there], going[there]
                 met[row, column, going] = self.pieces[faces[there]]
@@ -200,6 +202,7 @@ class _Paths:
         self._target, self._points, self._deep = target, points, deep
         self._own = own  # of the points, where what slides on in what it fills at rest is not stopped
         self._flat, self._normals = np.zeros(len(points), dtype=bool), samples.normals
+        self._fits = np.zeros(len(points), dtype=bool)  # within what its own surface fills at rest
         self._now, self._lead = points, 1.0
         self._within = np.full(len(points), -1, dtype=np.int64)  # piece that a point is in, -1 for none
         self._passed = np.zeros(len(points), dtype=bool)
@@ -225,7 +228,7 @@ class _Paths:
         for _ in range(_MOST_HITS):
             going, start = self._meet(going, start, way)
         depth = np.abs(np.einsum("ij,ij->i", self._now - self._hit, self._normal))
-        self._passed |= (self._within >= 0) & (depth > self._deep)
+        self._passed |= (self._within >= 0) & ~self._fits & (depth > self._deep)
         return int(self._passed.sum())
 
     def _meet(self, going: IntArray, start: FloatArray, way: FloatArray) -> tuple[IntArray, FloatArray]:
@@ -240,17 +243,18 @@ class _Paths:
         sense = np.sign(np.einsum("ni,ni->n", normal, way[going]))
         enters = within < 0
         enters[enters] = target.entered(faces[enters], hit[enters], way[going][enters])
-        if self._own is not None:
-            slides = enters & self._flat[going]
-            enters[slides] = ~self._own.filled(hit[slides], way[going][slides], self._deep)
         leaves = (within == target.pieces[faces]) & (sense * self._sense[going] < 0)
         depth = np.abs(np.einsum("ni,ni->n", hit - self._hit[going], self._normal[going]))
         through = np.einsum("ni,ni->n", normal, self._normal[going]) < _OPPOSITE
-        self._passed[going] |= leaves & (through | (depth > self._deep))
+        self._passed[going] |= leaves & ~self._fits[going] & (through | (depth > self._deep))
         self._within[going[leaves]] = -1
         inside = going[enters]
         self._within[inside], self._sense[inside] = target.pieces[faces[enters]], sense[enters]
         self._hit[inside], self._normal[inside] = hit[enters], normal[enters]
+        self._fits[inside] = False
+        if self._own is not None:
+            slides = enters & self._flat[going]
+            self._fits[going[slides]] = self._own.filled(hit[slides], way[going][slides], self._deep)
         length = np.maximum(np.linalg.norm(rest, axis=1, keepdims=True), 1e-30)
         start = start.copy()
         start[going] = hit + rest * np.minimum(target.step / length, 1.0)

@@ -202,6 +202,23 @@ class TestHoles:
         )
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_that_there_may_be_holes_never_stops_what_is_free_without(seed: int) -> None:
+    """Boxes in boxes, some without a face, that turn about a line beside them and slide past each other."""
+    rng = np.random.default_rng(seed)
+
+    def heap() -> FloatArray:
+        corners = rng.random((4, 3))
+        boxes = triangles([(c, c + 0.1 + 0.5 * rng.random(3)) for c in corners])
+        return boxes[rng.random(len(boxes)) < 0.9]
+
+    moving, still, stops = heap(), heap(), np.linspace(0.02, 0.6, 30)
+    for motion in (about((0, 0, 1), (-0.2, 0, 0)), along(*rng.standard_normal(3))):
+        strict, lenient = (sweep_of(moving, still, holes=h).blocked(motion, stops) for h in (False, True))
+        assert (lenient <= strict).all()
+        assert strict[-1] > 0
+
+
 def test_nothing_stands_in_the_way_of_nothing() -> None:
     empty = np.zeros((0, 3, 3))
     assert sweep_of(triangles(DRAWER), empty).free(along(0, 1, 0), 2.0) == 2.0
