@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
@@ -16,6 +17,11 @@ from .plan import FinetunePlan
 
 if TYPE_CHECKING:
     from accelerate import Accelerator
+
+
+# A thread of gloo's drops the tensors of the last exchange as soon as it gets hold of the interpreter [s]. If
+# that is ending by then, the process aborts.
+_LETTING_GO = 0.2
 
 
 @contextmanager
@@ -44,6 +50,8 @@ def machine(plan: FinetunePlan, device: str) -> Iterator[Accelerator]:
             )
         yield accelerator
     finally:
+        if accelerator.num_processes > 1:
+            time.sleep(_LETTING_GO)
         # accelerate keeps the first precision of a process for good; the next run may want another.
         AcceleratorState._reset_state()
 
