@@ -38,6 +38,8 @@ def _check_object(made: GeneratedObject, moves: bool) -> None:
     assert SMALLEST < (high - low).max() < LARGEST
     assert abs(low[2]) < 1e-6 * (high - low).max()  # stands on z = 0
     assert len(everything) < 3 * 30_000
+    corners = [set(map(tuple, np.round(body.triangles.reshape(-1, 3), 9).tolist())) for body in made.bodies]
+    assert sum(map(len, corners)) == len(set.union(*corners))  # or a reader may weld two bodies together
     for number, body in enumerate(made.bodies):
         assert re.fullmatch(r"[a-z][a-z0-9_]*", body.name)
         assert re.fullmatch(r"[a-z][a-z ]*", body.label)

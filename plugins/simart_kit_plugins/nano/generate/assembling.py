@@ -42,6 +42,11 @@ class Assembly:
     def __init__(self, label: str = "body") -> None:
         self._drafts = [_Draft(label.replace(" ", "_"), label, [], -1, None)]
 
+    @property
+    def count(self) -> int:
+        """Bodies so far, the root included."""
+        return len(self._drafts)
+
     def fix(self, pieces: Pieces, look: Look, to: int = 0) -> None:
         """Adds pieces to a body, the root unless told."""
         if pieces:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
+from ...shapes.dice import Dice
 from . import (
     aircraft,
     bins,
     carried,
     carts,
     clocks,
+    contraptions,
     cooking,
     cookware,
     desks,
@@ -21,6 +24,7 @@ from . import (
     gadgets,
     gates,
     hand_tools,
+    heaps,
     heavy_machines,
     instruments,
     kitchens,
@@ -51,8 +55,10 @@ from . import (
     windows,
     workshop_tools,
 )
+from .apart import apart
 from .category import Category
 from .hinges import hinged
+from .objects import Body
 
 _MADE: tuple[Category, ...] = (
     *aircraft.CATEGORIES,
@@ -60,6 +66,7 @@ _MADE: tuple[Category, ...] = (
     *carried.CATEGORIES,
     *carts.CATEGORIES,
     *clocks.CATEGORIES,
+    *contraptions.CATEGORIES,
     *cooking.CATEGORIES,
     *cookware.CATEGORIES,
     *desks.CATEGORIES,
@@ -70,6 +77,7 @@ _MADE: tuple[Category, ...] = (
     *gadgets.CATEGORIES,
     *gates.CATEGORIES,
     *hand_tools.CATEGORIES,
+    *heaps.CATEGORIES,
     *heavy_machines.CATEGORIES,
     *instruments.CATEGORIES,
     *kitchens.CATEGORIES,
@@ -100,4 +108,15 @@ _MADE: tuple[Category, ...] = (
     *windows.CATEGORIES,
     *workshop_tools.CATEGORIES,
 )
-CATEGORIES: tuple[Category, ...] = tuple(replace(made, bodies=partial(hinged, made.bodies)) for made in _MADE)
+# What is nothing in particular, of which nobody would say what it is.
+NAMELESS = (contraptions.NAME, heaps.NAME)
+
+
+def _finished(maker: Callable[[Dice], Sequence[Body]], dice: Dice) -> list[Body]:
+    """What a maker makes, with hinges, and no two bodies welded together."""
+    return apart(hinged(maker, dice))
+
+
+CATEGORIES: tuple[Category, ...] = tuple(
+    replace(made, bodies=partial(_finished, made.bodies)) for made in _MADE
+)

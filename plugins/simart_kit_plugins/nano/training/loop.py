@@ -14,6 +14,7 @@ from torch.nn.utils import clip_grad_norm_
 from simart_kit.errors import BadInputError
 
 from ..config import NanoConfig
+from ..generate.catalogue import NAMELESS
 from ..learning import batch_of, targets_of
 from ..losses import losses
 from ..mixing import varied
@@ -47,9 +48,9 @@ class NanoRow:
 
 
 def with_names(plan: TrainingPlan, examples: Sequence[Stored]) -> TrainingPlan:
-    """The plan with the labels and categories that the examples have."""
+    """The plan with the labels and categories of the examples; what is nothing in particular has none."""
     labels = sorted({str(label) for one in examples for label in one.label})
-    categories = sorted({one.category for one in examples})
+    categories = sorted({one.category for one in examples} - set(NAMELESS))
     named = {"labels": tuple(labels), "categories": tuple(categories)}
     network = NanoConfig(**{**plan.network.model_dump(), **named})
     return plan.model_copy(update={"network": network})

@@ -33,7 +33,10 @@ class TrainingPlan(Table):
     objects: int = Field(default=40_000, gt=0, description="Made-up objects to train on.")
     held_out: int = Field(default=600, gt=0, description="Objects to judge on, of another seed.")
     unseen: tuple[str, ...] = Field(default=UNSEEN, description="Categories to judge on and not to train on.")
-    static_share: float = Field(default=0.14, ge=0, le=1, description="Share of objects that do not move.")
+    static_share: float = Field(default=0.2, ge=0, le=1, description="Share of objects that do not move.")
+    nameless_share: float = Field(
+        default=0.35, ge=0, le=1, description="Share of objects that are nothing in particular."
+    )
     skin_share: float = Field(default=0.3, ge=0, le=1, description="Share of objects that are one skin.")
     seed: int = Field(default=0, ge=0, lt=2**31, description="Decides all that is random.")
     steps: int = Field(default=16_000, gt=0, description="Steps of training.")

@@ -13,7 +13,7 @@ from simart_kit.errors import BadInputError, OutputError
 
 from ...shapes.dice import Dice
 from ..examples import example
-from ..generate.catalogue import CATEGORIES
+from ..generate.catalogue import CATEGORIES, NAMELESS
 from ..generate.category import Category
 from ..generate.posing import ajar
 from ..store import Stored, load, save, stored
@@ -34,6 +34,7 @@ class Shard:
         path: of the file.
         names: categories that it draws from.
         static_share: how many of its objects do not move.
+        nameless_share: how many are nothing in particular.
         skin_share: how many are one skin.
         seed: of the training.
         stream: what the objects are for.
@@ -43,6 +44,7 @@ class Shard:
     path: Path
     names: tuple[str, ...]
     static_share: float
+    nameless_share: float
     skin_share: float
     seed: int
     stream: int
@@ -70,6 +72,7 @@ def shards(plan: TrainingPlan, folder: Path, stream: int) -> list[Shard]:
             folder / f"{prefix}-{first:06d}.npz",
             wanted,
             plan.static_share,
+            plan.nameless_share,
             plan.skin_share,
             plan.seed,
             stream,
@@ -127,6 +130,7 @@ def _object(shard: Shard, number: int) -> Stored:
 
 def _drawn(shard: Shard, generator: np.random.Generator) -> Category:
     known = [category for category in CATEGORIES if category.name in shard.names]
-    still = generator.random() < shard.static_share
-    chosen = [category for category in known if category.moves != still] or known
+    still, nameless = generator.random(2) < (shard.static_share, shard.nameless_share)
+    fit = [category for category in known if category.moves != still] or known
+    chosen = [category for category in fit if (category.name in NAMELESS) == nameless] or fit
     return chosen[int(generator.integers(len(chosen)))]
