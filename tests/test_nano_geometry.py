@@ -12,6 +12,7 @@ from simart_kit_plugins.nano.scene import pieces_of
 from simart_kit_plugins.nano.superfaces import nearest_superface, superfaces
 from simart_kit_plugins.nano.truth import majority, right_candidates
 from simart_kit_plugins.nano.visibility import visible
+from simart_kit_plugins.shapes.placing import X, pointed, rotation, turned
 from simart_kit_plugins.shapes.primitives import between, cylinder
 
 from simart_kit.triangles import areas, unit_normals
@@ -103,6 +104,63 @@ def test_a_wheels_axle_is_the_axis_of_its_circle():
     assert np.allclose(found.origin[circles[0], :2], [0.1, 0.2], atol=0.01)
 
 
+def of_solids(solids):
+    """A cloud of solids, each a piece."""
+    parts = [sampled(solid, 400) for solid in solids]
+    points, normals = (np.concatenate(rows) for rows in zip(*parts, strict=True))
+    piece = np.repeat(np.arange(len(solids)), 400)
+    area = np.repeat([areas(solid).sum() / 400 for solid in solids], 400)
+    return Cloud(points, normals, np.full_like(points, 0.5), piece, area, len(solids))
+
+
+# A lever across the object's axes, and a pin through it that is neither at its edge nor in its middle.
+LEVER = turned([between((-0.3, -0.1, -0.02), (0.3, 0.1, 0.02))], rotation((0, 0, 1), 0.5))[0]
+PIN = pointed(cylinder(0.02, 0.4, 16), X)
+ASKEW = rotation((0, 1, 0), 0.35) @ rotation((0, 0, 1), 0.8)
+
+
+def exactly(found, motion):
+    """Which candidates are this motion but for what points sampled at random leave open."""
+    same = np.abs(found.axis @ motion.axis) > np.cos(np.deg2rad(2))
+    off = np.linalg.norm(np.cross(motion.origin - found.origin, motion.axis), axis=1)
+    slides = motion.kind == "prismatic"
+    return same & ((found.source == SLIDE) == slides) & (slides | (off < 0.01))
+
+
+def test_a_pin_beside_a_part_is_a_line_and_a_way_whatever_its_direction():
+    pin = turned([PIN], ASKEW)[0] + [0.17, 0.05, 0.0]
+    cloud = of_solids([LEVER, pin, BODY + [0, 0.3, 0]])
+    found = part_lines(cloud, cloud.piece == 0).found
+    alone = part_lines(of_solids([LEVER, BODY + [0, 0.3, 0]]), np.repeat([True, False], 400)).found
+    along = ASKEW @ [1, 0, 0]
+    for motion, source in ((hinge((0.17, 0.05, 0.0), along, 1.0), CONTACT), (slide(along, 0.2), SLIDE)):
+        assert found.source[exactly(found, motion)].tolist() == [source]
+        assert not exactly(alone, motion).any()
+
+
+def test_a_round_plate_is_a_line_across_it_and_a_block_is_none():
+    points, normals = sampled(LEVER)
+    plate = turned([cylinder(0.08, 0.01, 24)], ASKEW)[0] + [0.17, 0.05, 0.0]
+    motion = hinge((0.17, 0.05, 0.0), ASKEW @ [0, 0, 1], 1.0)
+    plain = candidates(points, normals, points[:0])
+    with_plate = candidates(points, normals, points[:0], [sampled(plate)[0]])
+    assert not exactly(plain, motion).any()
+    assert exactly(with_plate, motion)[len(plain) :].tolist() == [True]
+    block = turned([between((-0.03,) * 3, (0.03,) * 3)], ASKEW)[0]
+    assert len(candidates(points, normals, points[:0], [sampled(block)[0]])) == len(plain)
+
+
+def test_a_splayed_round_leg_folds_about_the_level_line_across_it():
+    yaw = rotation((0, 0, 1), 2 * np.pi / 3)
+    leg = turned([cylinder(0.02, 0.8, 16) - [0, 0, 0.4]], yaw @ rotation((0, 1, 0), 0.4))[0]
+    points, normals = sampled(leg)
+    motion = hinge((0, 0, 0), yaw @ [0, 1, 0], 0.8)
+    found = candidates(points, normals, points[:0])
+    level = np.abs(found.axis @ motion.axis) > np.cos(np.deg2rad(2))
+    off = np.linalg.norm(np.cross(found.origin, motion.axis), axis=1)
+    assert off[level & (found.source != SLIDE)].min() < 0.03
+
+
 def test_a_circle_is_found_from_its_rim_and_a_line_is_none():
     angle = np.linspace(0, 2 * np.pi, 60, endpoint=False)
     rim = 2 * np.column_stack([np.cos(angle), np.sin(angle)]) + [5, 7]
@@ -145,14 +203,8 @@ def test_the_edge_with_hinges_and_that_across_from_the_handle_tell_themselves_ap
     hinges = np.concatenate([between((0.38, -0.03, z), (0.42, 0.01, z + 0.05)) for z in (-0.35, 0.3)])
     handle = between((0.03, -0.06, -0.05), (0.05, -0.02, 0.05))
     solids = [DOOR, handle, BODY, hinges[:12], hinges[12:]]
-    parts = [sampled(solid, 400) for solid in solids]
-    points = np.concatenate([p for p, _ in parts])
-    piece = np.repeat(np.arange(5), [len(p) for p, _ in parts])
-    area = np.concatenate(
-        [np.full(len(p), areas(s).sum() / len(p)) for (p, _), s in zip(parts, solids, strict=True)]
-    )
-    cloud = Cloud(points, np.concatenate([n for _, n in parts]), np.full_like(points, 0.5), piece, area, 5)
-    lines = part_lines(cloud, piece < 2)
+    cloud = of_solids(solids)
+    lines = part_lines(cloud, cloud.piece < 2)
     left, right = upright_edges(lines.found)
     assert len(left)
     assert len(right)

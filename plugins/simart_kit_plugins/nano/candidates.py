@@ -1,10 +1,11 @@
-"""Lines and directions that a part may move about: from its boxes, its round shapes, and where it touches.
+"""Lines and directions that a part may move about: from its boxes, round shapes, pins, and where it touches.
 
 A candidate has no sense: limits on both sides of 0 say which way it goes.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -23,6 +24,11 @@ _NEAR = 0.02
 # Lines through a box's section: its corners, the middles of its sides, and its center.
 _SPOTS = np.array(list(product((-1.0, 0.0, 1.0), repeat=2)))
 _SPOT_SOURCE = np.array([EDGE, MIDDLE, EDGE, MIDDLE, CENTER, MIDDLE, EDGE, MIDDLE, EDGE])
+# A piece is long if it is so many times as long as it is wide, flat if so many times as wide as it is thick.
+_LONG, _FLAT = 2.0, 2.0
+# What is flat is round if it is no longer than so many times its width.
+_ROUND = 1.25
+_Row = tuple[FloatArray, FloatArray, int, int, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,19 +53,25 @@ class Candidates:
         return len(self.axis)
 
 
-def candidates(points: FloatArray, normals: FloatArray, touching: FloatArray) -> Candidates:
+def candidates(
+    points: FloatArray, normals: FloatArray, touching: FloatArray, pins: Sequence[FloatArray] = ()
+) -> Candidates:
     """All candidates of a part.
 
     Args:
         points: (N, 3) of the part.
         normals: (N, 3) unit, either sense.
         touching: (M, 3) points of the part next to the rest of the object; may be none.
+        pins: (K, 3) points each of pieces that it may turn about or slide along: its own, and small ones
+            beside it.
     """
-    rows: list[tuple[FloatArray, FloatArray, int, int, float]] = []
+    rows: list[_Row] = []
     for number, axes in enumerate(_frames(points, normals)):
         rows += _of_box(points, axes, min(number, 1))
         rows += _of_circles(points, axes, min(number, 1))
     rows += _of_contact(touching)
+    for pin in pins:
+        rows += [row for row in _of_pin(pin) if not _is_there(row, rows)]
     axis, origin, source, frame, misfit = zip(*rows, strict=True)
     return Candidates(np.stack(axis), np.stack(origin), np.array(source), np.array(frame), np.array(misfit))
 
@@ -78,16 +90,27 @@ def _frames(points: FloatArray, normals: FloatArray) -> list[FloatArray]:
     """(3, 3) axes as rows: the object's, then those of the part's normals and of its extent that differ."""
     found = [np.eye(3)]
     spread = points - points.mean(axis=0)
-    for scatter in (normals.T @ normals, spread.T @ spread):
-        axes = np.linalg.eigh(scatter)[1].T[::-1]
+    for axes in (np.linalg.eigh(normals.T @ normals)[1].T[::-1], _extents(spread)):
         if all(np.abs(axes @ known.T).max(axis=1).min() < _ALIKE for known in found):
             found.append(axes)
     return found
 
 
-def _of_box(
-    points: FloatArray, axes: FloatArray, frame: int
-) -> list[tuple[FloatArray, FloatArray, int, int, float]]:
+def _extents(spread: FloatArray) -> FloatArray:
+    """(3, 3) directions of (N, 3) points about 0, the longest first; of two others alike, one is level.
+
+    A splayed leg folds about the level line across it, whichever way its round section is turned.
+    """
+    values, vectors = np.linalg.eigh(spread.T @ spread)
+    axes = vectors.T[::-1]
+    level = np.cross([0.0, 0.0, 1.0], axes[0])
+    if values[1] > _ROUND**2 * values[0] or np.linalg.norm(level) < np.sqrt(1 - _ALIKE**2):
+        return np.asarray(axes)
+    level = units(level[None])[0]
+    return np.stack([axes[0], level, np.cross(axes[0], level)])
+
+
+def _of_box(points: FloatArray, axes: FloatArray, frame: int) -> list[_Row]:
     """Slides along the axes of a box, and lines along them through its section."""
     low, high = np.quantile(points @ axes.T, [_TRIM, 1 - _TRIM], axis=0)
     middle, half = (low + high) / 2, (high - low) / 2
@@ -101,9 +124,7 @@ def _of_box(
     return rows
 
 
-def _of_circles(
-    points: FloatArray, axes: FloatArray, frame: int
-) -> list[tuple[FloatArray, FloatArray, int, int, float]]:
+def _of_circles(points: FloatArray, axes: FloatArray, frame: int) -> list[_Row]:
     """Axes of circles fitted to the points as seen along each axis."""
     rows = []
     for k in range(3):
@@ -132,7 +153,7 @@ def fitted_circle(flat: FloatArray) -> tuple[FloatArray, float]:
     return solution[:2] + start, float(np.sqrt(np.mean(off**2))) / radius
 
 
-def _of_contact(touching: FloatArray) -> list[tuple[FloatArray, FloatArray, int, int, float]]:
+def _of_contact(touching: FloatArray) -> list[_Row]:
     """Lines through the middle of where the part touches the rest: along it, and along the object's axes."""
     if len(touching) < 3:
         return []
@@ -140,3 +161,25 @@ def _of_contact(touching: FloatArray) -> list[tuple[FloatArray, FloatArray, int,
     spread = touching - middle
     along = units(np.linalg.eigh(spread.T @ spread)[1].T[-1:])[0]
     return [(axis, middle, CONTACT, 0, 0.0) for axis in (along, *np.eye(3))]
+
+
+def _of_pin(points: FloatArray) -> list[_Row]:
+    """The axis of a long piece, as a line and a slide, or of a round flat one; of others nothing."""
+    middle = points.mean(axis=0)
+    spread = points - middle
+    values, vectors = np.linalg.eigh(spread.T @ spread)
+    thin, wide, long = np.sqrt(np.maximum(values, 1e-18))
+    if long > _LONG * wide:
+        return [(vectors[:, 2], middle, source, 1, 0.0) for source in (CONTACT, SLIDE)]
+    if wide > _FLAT * thin and long < _ROUND * wide:
+        return [(vectors[:, 0], middle, CONTACT, 1, 0.0)]
+    return []
+
+
+def _is_there(row: _Row, rows: Sequence[_Row]) -> bool:
+    """Whether one of the rows says nearly the same."""
+    axis, origin, source = row[:3]
+    same = [
+        other for other in rows if (other[2] == SLIDE) == (source == SLIDE) and abs(other[0] @ axis) > _ALIKE
+    ]
+    return any(source == SLIDE or np.linalg.norm(np.cross(o[1] - origin, axis)) < _NEAR for o in same)

@@ -17,6 +17,8 @@ from .line_places import Details
 _FAR = 1.0
 # Pieces smaller than this share of a part's largest one are details: its handles, or hinges on what holds it.
 _SMALL = 0.25
+# So many pieces of a part, and so many beside it, are looked at for pins that it turns about.
+_PINS = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,14 +50,29 @@ def part_lines(cloud: Cloud, inside: BoolArray) -> PartLines:
 
     own, rest = cloud.points[inside], cloud.points[~inside]
     gap = np.minimum(np.asarray(cKDTree(rest).query(own)[0]), _FAR)
-    found = candidates(own, cloud.normals[inside], own[gap < TOUCHING])
-    return PartLines(own, rest, gap, found, _details(cloud, inside))
-
-
-def _details(cloud: Cloud, inside: BoolArray) -> Details:
     area = np.bincount(cloud.piece, cloud.area, cloud.count)
+    small = area < _SMALL * area[np.unique(cloud.piece[inside])].max()
+    pins = _pins(cloud, inside, small[cloud.piece])
+    found = candidates(own, cloud.normals[inside], own[gap < TOUCHING], pins)
+    return PartLines(own, rest, gap, found, _details(cloud, inside, small))
+
+
+def _pins(cloud: Cloud, inside: BoolArray, small: BoolArray) -> list[FloatArray]:
+    """(K, 3) points each of the part's pieces, and of small ones that it touches: the largest of either."""
+    from scipy.spatial import cKDTree
+
     own = np.unique(cloud.piece[inside])
-    small = area < _SMALL * area[own].max()
+    beside = np.zeros(0, dtype=own.dtype)
+    if (~inside & small).any():
+        gap = np.asarray(cKDTree(cloud.points[inside]).query(cloud.points[~inside & small])[0])
+        beside = np.unique(cloud.piece[~inside & small][gap < TOUCHING])
+    area = np.bincount(cloud.piece, cloud.area, cloud.count)
+    largest = [sorted(some.tolist(), key=lambda piece: -area[piece])[:_PINS] for some in (own, beside)]
+    return [cloud.points[cloud.piece == piece] for some in largest for piece in some]
+
+
+def _details(cloud: Cloud, inside: BoolArray, small: BoolArray) -> Details:
+    own = np.unique(cloud.piece[inside])
     parts = own[small[own]]
     grips = [_middle(cloud.points[cloud.piece == piece]) for piece in parts]
     grip = np.mean(grips, axis=0) if grips else _middle(cloud.points[inside])
