@@ -104,11 +104,12 @@ class Contacts:
 
 def hanging_on(start: Set[int], among: Sequence[int], joined: Callable[[int, int], bool]) -> set[int]:
     """The start, and those `among` pieces that are joined to it, or to what hangs on it."""
-    found, grown = set(start), True
-    while grown:
-        more = {i for i in among if i not in found and any(joined(i, j) for j in found)}
+    found = set(start)
+    newest = list(found)
+    while newest:  # what is not joined to those found before has been asked already
+        more = {i for i in among if i not in found and any(joined(i, j) for j in newest)}
         found |= more
-        grown = bool(more)
+        newest = [j for j in found if j in more]
     return found
 
 

@@ -138,12 +138,13 @@ def _closes_plate(scene: Scene, leaf: Leaf, own: IntArray) -> bool:
     rest = scene.triangles[~np.isin(scene.labels, own)].reshape(-1, 3) - leaf.hinge
     if not len(rest):
         return False
-    across, along, out = (rest @ leaf.axis), (rest @ leaf.closed), (rest @ leaf.outward)
-    slack = _PLATE * leaf.sizes
+    slack, half = _PLATE * leaf.sizes, leaf.sizes[0] / 2
+    across = rest @ leaf.axis
+    if not (abs(across.min() + half) < slack[0] and abs(across.max() - half) < slack[0]):
+        return False
+    along, out = rest @ leaf.closed, rest @ leaf.outward
     return bool(
-        abs(across.min() + leaf.sizes[0] / 2) < slack[0]
-        and abs(across.max() - leaf.sizes[0] / 2) < slack[0]
-        and abs(along.min()) < slack[1] + leaf.thickness
+        abs(along.min()) < slack[1] + leaf.thickness
         and abs(along.max() - leaf.sizes[1]) < slack[1] + leaf.thickness
         and np.ptp(out) < _SLAB * leaf.sizes.min()
         and out.max() < 0.5 * _SLAB * leaf.sizes.min()

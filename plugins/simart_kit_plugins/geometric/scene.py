@@ -37,6 +37,11 @@ class Box:
     lower: FloatArray
     upper: FloatArray
 
+    @cached_property
+    def _corners(self) -> tuple[list[float], list[float]]:
+        """The corners as plain numbers, many times as quick to compare one by one."""
+        return self.lower.tolist(), self.upper.tolist()
+
     @classmethod
     def around(cls, boxes: Sequence[Box]) -> Box:
         """The box of some boxes, of one at least."""
@@ -59,17 +64,27 @@ class Box:
 
     def lies_in(self, other: Box, margin: float) -> bool:
         """Whether the rectangle of its first two axes lies in that of another, or sticks out by `margin`."""
-        # One number after the other: it is asked of all pairs of pieces, and the first mostly tells.
-        return bool(
-            self.lower[0] >= other.lower[0] - margin
-            and self.upper[0] <= other.upper[0] + margin
-            and self.lower[1] >= other.lower[1] - margin
-            and self.upper[1] <= other.upper[1] + margin
+        (x, y, _), (far_x, far_y, _) = self._corners
+        (other_x, other_y, _), (other_far_x, other_far_y, _) = other._corners
+        return (
+            x >= other_x - margin
+            and far_x <= other_far_x + margin
+            and y >= other_y - margin
+            and far_y <= other_far_y + margin
         )
 
     def overlap(self, other: Box, margin: float) -> bool:
         """Whether the boxes come within `margin` of each other."""
-        return bool((self.lower - margin <= other.upper).all() and (other.lower - margin <= self.upper).all())
+        (x, y, z), (far_x, far_y, far_z) = self._corners
+        (other_x, other_y, other_z), (other_far_x, other_far_y, other_far_z) = other._corners
+        return (
+            x - margin <= other_far_x
+            and other_x - margin <= far_x
+            and y - margin <= other_far_y
+            and other_y - margin <= far_y
+            and z - margin <= other_far_z
+            and other_z - margin <= far_z
+        )
 
 
 @dataclass(frozen=True, eq=False)
