@@ -75,19 +75,29 @@ class Rays:
         Returns:
             (N,) triangle, -1 for none, and (N,) distance in lengths of the direction, infinite for none.
         """
-        hits = self.hits(origins, directions)
-        return hits.face, hits.distance.astype(np.float64)
+        face, distance, _, _ = self._met(origins, directions)
+        return face, distance.astype(np.float64)
 
     def hits(self, origins: ArrayLike, directions: ArrayLike) -> Hits:
         """As `first`, with the place on the triangle."""
+        face, distance, u, v = self._met(origins, directions)
+        weights = (
+            np.zeros((len(face), 3), dtype=np.float32) if self._empty else np.stack([1 - u - v, u, v], 1)
+        )
+        return Hits(face, distance, weights)
+
+    def _met(
+        self, origins: ArrayLike, directions: ArrayLike
+    ) -> tuple[IntArray, Float32Array, Float32Array, Float32Array]:
+        """(N,) face, distance, and weights of the triangle's last two corners."""
         start = self._local(origins)
         if self._empty:
-            nothing = np.zeros((len(start), 3), dtype=np.float32)
-            return Hits(np.full(len(start), -1, dtype=np.int32), nothing[:, 0] + np.inf, nothing)
+            nothing = np.zeros(len(start), dtype=np.float32)
+            return np.full(len(start), -1, dtype=np.int32), nothing + np.inf, nothing, nothing
         found = self._scene.run(start, _towards(directions, start), query="INTERSECT", output=True)
-        face, u, v = found["primID"], found["u"], found["v"]
+        face = found["primID"]
         distance = np.where(face >= 0, found["tfar"], np.float32(np.inf)) * np.float32(self.size)
-        return Hits(face, distance, np.stack([1 - u - v, u, v], axis=1))
+        return face, distance, found["u"], found["v"]
 
     def blocked(self, origins: ArrayLike, directions: ArrayLike, reach: float | None = None) -> BoolArray:
         """(N,) whether each ray meets a triangle within `reach` lengths of its direction, or anywhere."""
@@ -105,4 +115,6 @@ class Rays:
 
 
 def _towards(directions: ArrayLike, start: Float32Array) -> Float32Array:
-    return np.ascontiguousarray(np.broadcast_to(directions, start.shape), dtype=np.float32)
+    if np.shape(directions) != start.shape:  # asked first, for broadcasting takes as long as a hundred rays
+        directions = np.broadcast_to(directions, start.shape)
+    return np.ascontiguousarray(directions, dtype=np.float32)

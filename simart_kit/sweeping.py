@@ -25,6 +25,8 @@ _DEEP = 0.003  # of the moving part's size: shallower crossings are surfaces tha
 _MOST_HITS = 6  # faces that a point may meet in one step
 _OPPOSITE = -0.5  # cosine between faces that are the two sides of a board
 _STEP = 1e-6  # of the size
+# Both ways of all axes, and a little off them: rays along a wall's plane would slip through its edge.
+_WAYS = np.concatenate([np.eye(3), -np.eye(3)]) + 0.01 * np.array([0.3, -0.5, 0.7])
 _ALONG = 0.3  # sine of the angle up to which a point moves along its own surface
 
 
@@ -157,17 +159,16 @@ class _Surface:
 
     def _around(self, points: FloatArray, count: int) -> IntArray:
         """(6, count, N) pieces that are met first from (N, 3) points along both ways of all axes, or -1."""
-        met = np.full((6, count, len(points)), -1, dtype=np.int64)
-        for row, direction in enumerate(np.concatenate([np.eye(3), -np.eye(3)])):
-            # A little off the axis: rays along a wall's plane would slip through its edge.
-            way = direction + 0.01 * np.array([0.3, -0.5, 0.7])
-            start, going = points, np.arange(len(points))
-            for column in range(count):
-                faces, distance = self.rays.first(start, way)
-                there = faces >= 0
-                start, going = (start + (distance + self.step)[:, None] * way)[there], going[there]
-                met[row, column, going] = self.pieces[faces[there]]
-        return met
+        met = np.full((count, 6 * len(points)), -1, dtype=np.int64)
+        ways, going = np.repeat(_WAYS, len(points), axis=0), np.arange(6 * len(points))
+        start = np.tile(points, (6, 1))
+        for row in met:
+            faces, distance = self.rays.first(start, ways)
+            there = faces >= 0
+            start = (start + (distance + self.step)[:, None] * ways)[there]
+            ways, going = ways[there], going[there]
+            row[going] = self.pieces[faces[there]]
+        return met.reshape(count, 6, len(points)).transpose(1, 0, 2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -226,6 +227,8 @@ class _Paths:
         self._lead = -1.0
         going: IntArray = np.flatnonzero(~self._passed)
         for _ in range(_MOST_HITS):
+            if not len(going):
+                break
             going, start = self._meet(going, start, way)
         depth = np.abs(np.einsum("ij,ij->i", self._now - self._hit, self._normal))
         self._passed |= (self._within >= 0) & ~self._fits & (depth > self._deep)
