@@ -119,7 +119,7 @@ def _without(
         if len(made) >= most:
             break
         near = meets(other, np.array([convex(one).bounds for one in made]).reshape(-1, 2, 3)).tolist()
-        met = [k for k in near if -gap(convex(made[k]), other)[0] > TOLERANCE]
+        met = [k for k in near if -gap(convex(made[k]), other, TOLERANCE)[0] > TOLERANCE]
         for k in reversed(met):
             made[k : k + 1] = carved(made[k], other.shape)
         spent += len(met)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -13,9 +14,10 @@ from .bounds import sharing
 from .kept import kept
 from .primitive_meshes import pose
 from .topology import unique_rows
-from .triangles import areas, chunks, unit_normals
+from .triangles import areas, unit_normals
 
 _SAME = 1e6  # steps of a grid, of which directions that share one are one
+_AT_ONCE = 512  # axes that vertices are multiplied with
 _SLIVER = 1e-9  # of the largest triangle's area: normals of smaller ones are noise
 
 
@@ -65,7 +67,7 @@ class Convex:
         primitive = self.shape.primitive
         if primitive is None or primitive.kind == "box":
             lower, upper = np.zeros(len(axes)), np.zeros(len(axes))
-            for some in chunks(len(axes)):
+            for some in _slices(len(axes)):
                 along = self.shape.vertices @ axes[some].T  # so that a row is long: minima are faster
                 lower[some], upper[some] = along.min(axis=0), along.max(axis=0)
             return lower, upper
@@ -100,17 +102,23 @@ def meets(one: Convex, boxes: FloatArray) -> IntArray:
     return sharing(one.bounds, boxes)
 
 
-def gap(one: Convex, other: Convex) -> tuple[float, FloatArray]:
+def gap(one: Convex, other: Convex, deep: float = 0.0) -> tuple[float, FloatArray]:
     """How far two shapes are apart [m], and the (3,) unit axis from one to the other along which they are.
 
     Negative is how deep they overlap: the shortest way that parts them. Positive is their distance where
     faces look at each other, and at most their distance elsewhere.
+
+    Args:
+        one: a shape.
+        other: a shape.
+        deep: where they overlap by less than this [m], how deep exactly is not looked at: the answer may be
+            deeper than it is, but not as deep as this.
     """
     middles = other.bounds.mean(axis=0) - one.bounds.mean(axis=0)
     length = float(np.linalg.norm(middles))
     between = middles[None] / length if length > 0 else np.eye(3)
     found = _widest(one, other, np.concatenate([one.normals, other.normals, between]))
-    if found[0] > 0:
+    if found[0] > -deep:
         return found
     cross = _across(one.edges, other.edges)
     edged = _widest(one, other, cross) if len(cross) else found
@@ -139,6 +147,15 @@ def _widest(one: Convex, other: Convex, axes: FloatArray) -> tuple[float, FloatA
     best = int(np.argmax(np.maximum(ahead, behind)))
     sign = 1.0 if ahead[best] >= behind[best] else -1.0
     return float(max(ahead[best], behind[best])), sign * axes[best]
+
+
+def _slices(count: int) -> Iterator[slice]:
+    """Even slices of 0..count-1, so short that their products stay in the processor's cache.
+
+    BLAS would share longer ones among threads, which wait for each other longer than they work.
+    """
+    parts = -(-count // _AT_ONCE)
+    return (slice(count * k // parts, count * (k + 1) // parts) for k in range(parts))
 
 
 def _lines(directions: FloatArray) -> FloatArray:

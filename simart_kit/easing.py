@@ -65,7 +65,7 @@ def _ease(shapes: Shapes, joint: Joint, others: Mapping[str, Sequence[str]], mos
             reached = (part for part in others[name] if part in boxes)
             near = [(part, k) for part in reached for k in meets(moved, boxes[part]).tolist()]
             spent += len(near)
-            for other, k in [(part, k) for part, k in near if gap(moved, shapes[part][k])[0] < -TOLERANCE]:
+            for other, k in [o for o in near if -gap(moved, shapes[o[0]][o[1]], TOLERANCE)[0] > TOLERANCE]:
                 pulls = _pulls(joint, position, moved, shapes[other][k], most)
                 if pulls is not None:
                     axis, mine, its = pulls

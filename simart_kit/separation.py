@@ -195,10 +195,13 @@ def _met(
         for part, one in mine:
             moved = one.moved(posed_T_rest)
             for other, shape in (others[near[k]] for k in meets(moved, boxes)):
-                depth = -(gap(moved, shape) if part < other else gap(shape, moved))[0]
-                if depth > TOLERANCE:
-                    pair = (min(part, other), max(part, other))
-                    found[pair] = max(depth, found.get(pair, 0.0))
+                pair, two = (
+                    ((part, other), (moved, shape)) if part < other else ((other, part), (shape, moved))
+                )
+                known = found.get(pair, TOLERANCE)
+                depth = -gap(*two, known)[0]
+                if depth > known:
+                    found[pair] = depth
     return found
 
 
@@ -274,9 +277,10 @@ def _deepest(shapes: Sequence[Sequence[Convex]], bodies: IntArray) -> dict[Pair,
     """How deep parts with different labels of (P,) `bodies` stand in each other [m], where they do."""
     found: dict[Pair, float] = {}
     for (one, i), (other, j) in _near(shapes, bodies, -TOLERANCE):
-        depth = -gap(shapes[one][i], shapes[other][j])[0]
-        if depth > TOLERANCE:
-            found[one, other] = max(depth, found.get((one, other), 0.0))
+        known = found.get((one, other), TOLERANCE)
+        depth = -gap(shapes[one][i], shapes[other][j], known)[0]
+        if depth > known:
+            found[one, other] = depth
     return found
 
 
