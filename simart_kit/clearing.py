@@ -174,7 +174,6 @@ def _end(model: mujoco.MjModel, joint: int, limit: float, others: FloatArray) ->
 
 def _deepest(model: mujoco.MjModel, data: mujoco.MjData, mine: list[bool]) -> float:
     """[m] how deep what moves is in what does not."""
-    depths = [
-        -float(c.dist) for c in data.contact if len({mine[int(model.geom_bodyid[g])] for g in c.geom}) == 2
-    ]
-    return max(depths, default=0.0)
+    one, two = np.array(mine)[model.geom_bodyid[data.contact.geom]].T
+    between = -data.contact.dist[one != two]
+    return float(between.max()) if len(between) else 0.0

@@ -9,6 +9,7 @@ import numpy as np
 from .arrays import FloatArray, IntArray, frozen_floats
 from .asset import ConvexMesh
 from .farthest import farthest
+from .topology import without_gaps
 from .triangles import crosses
 
 MIN_THICKNESS = 0.002  # [m] of the hull of something flat
@@ -31,8 +32,7 @@ def hull_of(points: FloatArray) -> ConvexMesh | None:
         hull = ConvexHull(points)
     except QhullError:
         return None
-    used, corners = np.unique(hull.simplices, return_inverse=True)
-    corners = corners.reshape(-1, 3)
+    used, corners = without_gaps(hull.simplices)
     vertices = np.asarray(points, dtype=np.float64)[used]
     if min(float(np.ptp(vertices @ axis)) for axis in _principal_axes(vertices)) < _PLANE * _reach(vertices):
         return None

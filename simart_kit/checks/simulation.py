@@ -121,13 +121,17 @@ def _without_looks(spec: mujoco.MjSpec) -> mujoco.MjSpec:
 
 def contacts(model: mujoco.MjModel, data: mujoco.MjData) -> dict[tuple[str, str], Contact]:
     """The deepest contact of each pair of bodies, as `mj_forward` left them."""
+    deepest: dict[tuple[int, int], int] = {}
+    bodies, depths = model.geom_bodyid[data.contact.geom], -data.contact.dist
+    for index in np.flatnonzero(depths > 0).tolist():
+        one, two = sorted(bodies[index].tolist())
+        if depths[index] > depths[deepest.setdefault((one, two), index)]:
+            deepest[one, two] = index
     found: dict[tuple[str, str], Contact] = {}
-    for contact in data.contact:
-        names = sorted(body_name(model, model.geom_bodyid[geom]) for geom in contact.geom)
-        pair, depth = (names[0], names[1]), -float(contact.dist)
-        if depth > 0 and (pair not in found or found[pair].depth < depth):
-            x, y, z = (float(v) for v in contact.pos)
-            found[pair] = Contact(pair, depth, (x, y, z))
+    for (one, two), index in deepest.items():
+        first, second = sorted((body_name(model, one), body_name(model, two)))
+        x, y, z = data.contact.pos[index].tolist()
+        found[first, second] = Contact((first, second), float(depths[index]), (x, y, z))
     return found
 
 

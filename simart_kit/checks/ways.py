@@ -104,11 +104,13 @@ class Ways:
         for position in np.linspace(lower, upper, _STOPS):
             data.qpos[model.jnt_qposadr[joint]] = position
             mujoco.mj_fwdPosition(model, data)
-            for contact in data.contact:
-                one, two = (int(model.geom_bodyid[geom]) for geom in contact.geom)
-                if mine[one] != mine[two] and -contact.dist > _TOUCH:
+            depths = -data.contact.dist
+            deep = depths > _TOUCH
+            bodies = model.geom_bodyid[data.contact.geom[deep]]
+            for (one, two), depth in zip(bodies.tolist(), depths[deep].tolist(), strict=True):
+                if mine[one] != mine[two]:
                     other = two if mine[one] else one
-                    found[other] = max(found.get(other, 0.0), -float(contact.dist))
+                    found[other] = max(found.get(other, 0.0), depth)
         return found
 
     def _posed(self, opened: Mapping[int, float]) -> FloatArray:
