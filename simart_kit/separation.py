@@ -195,11 +195,10 @@ def _met(
         for part, one in mine:
             moved = one.moved(posed_T_rest)
             for other, shape in (others[near[k]] for k in meets(moved, boxes)):
-                pair, two = (
-                    ((part, other), (moved, shape)) if part < other else ((other, part), (shape, moved))
-                )
+                pair = (min(part, other), max(part, other))
+                first, second = (moved, shape) if part < other else (shape, moved)
                 known = found.get(pair, TOLERANCE)
-                depth = -gap(*two, known)[0]
+                depth = -gap(first, second, known)[0]
                 if depth > known:
                     found[pair] = depth
     return found
