@@ -357,6 +357,9 @@ def _high_chair(dice: Dice) -> list[Body]:
     if dice.chance(0.5):
         whole.add("tray", slide((0, -1, 0), dice.between(0.06, 0.15)), top)
     else:
+        pin = rod((-0.03, -0.09, level + 0.22), (0.03, -0.09, level + 0.22), 0.008)
+        pins = [pin + [s * x, 0, 0] for s in (-1, 1)]
+        whole.dress(0, surface(pins, frame))
         whole.add("tray", hinge((0, -0.09, level + 0.22), LEFT, dice.between(1.3, 1.9)), top)
     if dice.chance(0.5):
         low = 0.4 * level
