@@ -28,8 +28,9 @@ _MANY = 256
 _WORTH = 0.3
 # Share of the surface that a part which lies loose may have.
 _CARRIED = 0.5
-# An object of which the sides differ no more is recognised; this share of its parts' sureness is enough then.
-_ALIKE, _EASE = 0.0008, 1 / 4
+# An object of which the sides differ no more is recognised: what it has seen alike it reads alike from all
+# sides, of what is new each side says something else.
+_ALIKE = 0.0008
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,12 +70,12 @@ class Prediction:
     """What the network says of an object.
 
     Attributes:
-        parts: those sure enough.
+        parts: those sure enough; all, until that is decided (`trusting.settled`).
         doubtful: those that are not; their pieces stay with the body.
         piece_part: (S,) part of each piece, from 1; 0 is the body.
         moves: (S,) chance of each piece to be of a moving part.
         category: what it is; empty where no known one fits.
-        recognised: whether that is so sure that its parts need not be.
+        discord: how far what is said of it from each side is apart (`voting.discord`).
         categories: chance of each known category.
         size: longest side [m], and the factor by which opinions differ about it, at least 1.
     """
@@ -84,50 +85,41 @@ class Prediction:
     piece_part: IntArray
     moves: FloatArray
     category: str
-    recognised: bool
+    discord: float
     categories: Mapping[str, float]
     size: tuple[float, float]
 
+    @property
+    def recognised(self) -> bool:
+        """Whether it is read alike from all sides, as what was trained on is, of whatever kind."""
+        return self.discord <= _ALIKE
 
-def predict(network: ArrayNetwork, cloud: Cloud, least: float, votes: int = VOTES) -> Prediction:
+
+def predict(network: ArrayNetwork, cloud: Cloud, votes: int = VOTES) -> Prediction:
     """Read a cloud.
 
     Args:
         network: that reads it.
         cloud: of the object.
-        least: parts less sure than this, of moving as one and of how, stay with the body; in an object that
-            is recognised, parts less sure than `_EASE` of it.
         votes: from how many sides it is seen, 1..8; one of very many pieces is seen from one alone.
             What is seen from one alone is not recognised.
     """
     said = say(network, cloud, _votes(cloud, votes))
     area = _areas(cloud)
     found = [g for g in groups(said.moves, said.together, area, _WORTH) if len(g.pieces) < cloud.count]
-    every = tuple(plausible(part, area) for part in _parts(network, said, cloud, found))
+    parts = tuple(plausible(part, area) for part in _parts(network, said, cloud, found))
     names = network.config.categories
     best = int(said.category.argmax())
     name = names[best - 1] if best else ""
-    # What it has seen alike it reads alike from all sides; of what is new each side says something else.
-    recognised = bool(best) and said.discord <= _ALIKE
-    least *= _EASE if recognised else 1.0
-    parts = _sure(every, least)
     chances = dict(zip(names, said.category[1:].tolist(), strict=True))
-    doubtful = tuple(part for part in every if part.certainty < least)
     piece_part = piece_parts([part.pieces for part in parts], cloud.count)
-    return Prediction(parts, doubtful, piece_part, said.moves, name, recognised, chances, said.size)
+    return Prediction(parts, (), piece_part, said.moves, name, said.discord, chances, said.size)
 
 
 def plausible(part: PredictedPart, area: FloatArray) -> PredictedPart:
     """The part; not sure at all where it lies loose and is most of the object: no body would carry it."""
     loose = part.kind == "free" and area[part.pieces].sum() > _CARRIED * area.sum()
     return replace(part, certainty=0.0) if loose else part
-
-
-def _sure(every: Sequence[PredictedPart], least: float) -> tuple[PredictedPart, ...]:
-    """The parts that are sure enough; one whose carrier is not hangs on the body."""
-    kept = [number for number, part in enumerate(every, start=1) if part.certainty >= least]
-    place = {number: k for k, number in enumerate(kept, start=1)}
-    return tuple(replace(every[n - 1], parent=place.get(every[n - 1].parent, 0)) for n in kept)
 
 
 def predict_groups(

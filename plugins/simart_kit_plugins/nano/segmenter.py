@@ -45,7 +45,7 @@ class Nano(Segmenter):
             ge=0,
             le=1,
             description="Parts less sure than this stay with the body; a quarter of it is enough in an "
-            "object that is recognised.",
+            "object that is recognised, half in one that is read much alike from all sides.",
         )
         votes: int = Field(
             default=4,
@@ -78,22 +78,29 @@ class Nano(Segmenter):
 
         from .meshes import mesh_cloud
         from .predicting import predict
+        from .proposals import with_body
         from .showing import evidence
         from .stored_model import read_model, shipped_folder
+        from .trusting import settled
 
         folder = Path(self.options.model) if self.options.model else shipped_folder()
         model = read_model(folder)
         seen = mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(self.seed))
-        said = predict(model.network, seen.cloud, self.options.least, self.options.votes)
+        said = predict(model.network, seen.cloud, self.options.votes)
         material = partial(model.known.material, said.category)
         still = sum(said.categories[name] for name in model.known.still)
         if spec is not None and spec.moves:
             still = 0.0
-        fronts = self._fronts(mesh) if seen.skin and spec is None and still < _STILL else []
-        if fronts or still >= _STILL:
+        moves = still < _STILL
+        said = settled(said, self.options.least, seen.skin)
+        geometry = self._geometry(mesh) if moves and not (seen.skin and spec is not None) else []
+        fronts = with_body(mesh, geometry) if seen.skin else []
+        if fronts or not moves:
             found = _of_proposals(mesh, fronts, seen, material)
+        elif seen.skin:
+            found = _of_patches(mesh, said, seen, material, spec)
         else:
-            found = (_of_patches if seen.skin else self._of_pieces)(mesh, said, seen, material, spec)
+            found = self._of_pieces(mesh, said, seen, geometry, material, spec)
         assert found.face_segment is not None
         shown = evidence(found.mesh_of(mesh), found.face_segment, said, seen)
         return replace(found, notes=_notes(said, seen, still, len(found.parts) - 1), evidence=shown)
@@ -103,22 +110,22 @@ class Nano(Segmenter):
         mesh: Mesh,
         said: Prediction,
         seen: MeshCloud,
+        geometry: Sequence[Proposal],
         material: Callable[[str], str],
         spec: Spec | None,
     ) -> Segmentation:
         from .hardware import with_hardware
         from .honouring import chosen, rejoined
         from .pooling import pooled
-        from .proposals import of_geometry, of_network, with_body
+        from .proposals import of_network, with_body
         from .rotors import with_rotors
         from .travel import with_travel
 
         proposals = with_travel(mesh, of_network(said, said.piece_part[seen.face_piece], seen))
         if self.options.pool:
-            geometry = of_geometry(mesh, self.seed)
             proposals = with_rotors(mesh, proposals, geometry)
             # Borders and lines by geometry are exact, but who knows the object finds more of it.
-            known = said.recognised
+            known = said.recognised or not geometry
             first, second = (proposals, geometry) if known else (geometry, proposals)
             both = pooled(mesh, first, second, known=known)
             proposals = with_hardware(mesh, seen.face_piece, both)
@@ -128,11 +135,11 @@ class Nano(Segmenter):
         found = _of_proposals(mesh, kept, seen, material)
         return found if spec is None else rejoined(mesh, found, kept, seen, spec)
 
-    def _fronts(self, mesh: Mesh) -> list[Proposal]:
-        """What geometry finds on a skin, which is more than the network does."""
-        from .proposals import of_geometry, with_body
+    def _geometry(self, mesh: Mesh) -> list[Proposal]:
+        """What geometry finds, if it is asked: on a skin more than the network does."""
+        from .proposals import of_geometry
 
-        return with_body(mesh, of_geometry(mesh, self.seed)) if self.options.pool else []
+        return of_geometry(mesh, self.seed) if self.options.pool else []
 
 
 def _of_proposals(

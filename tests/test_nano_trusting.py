@@ -1,0 +1,59 @@
+"""How sure the network has to be of a part: less so where it reads the object alike from all sides."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from simart_kit_plugins.nano.predicting import PredictedPart, Prediction
+from simart_kit_plugins.nano.trusting import settled
+
+# Pieces.
+BODY, DRAWER, LID = range(3)
+
+
+def part(piece, certainty, kind="prismatic"):
+    along = np.array([0.0, -1.0, 0.0])
+    return PredictedPart(
+        np.array([piece]), "drawer", 0.9, kind, along, np.zeros(3), 0.0, 0.5, 0, 0.9, certainty
+    )
+
+
+def said(*parts, discord=0.005):
+    moves = np.full(3, 0.9)
+    return Prediction(parts, (), np.zeros(3, int), moves, "desk", discord, {}, (1.0, 1.0))
+
+
+def kept(prediction, skin=False):
+    found = settled(prediction, 0.8, skin)
+    assert len(found.parts) + len(found.doubtful) == len(prediction.parts)
+    for number, one in enumerate(found.parts, start=1):
+        assert (found.piece_part[one.pieces] == number).all()
+    return [int(one.pieces[0]) for one in found.parts]
+
+
+@pytest.mark.parametrize(("certainty", "found"), [(0.79, [DRAWER]), (0.41, [DRAWER]), (0.39, [])])
+def test_half_is_enough_in_what_is_read_much_alike_from_all_sides(certainty, found):
+    assert kept(said(part(DRAWER, certainty))) == found
+
+
+def test_all_is_asked_where_each_side_says_something_else():
+    assert kept(said(part(DRAWER, 0.79), discord=0.05)) == []
+    assert kept(said(part(DRAWER, 0.81), discord=0.05)) == [DRAWER]
+
+
+def test_all_is_asked_on_a_skin():
+    assert kept(said(part(DRAWER, 0.79)), skin=True) == []
+    assert kept(said(part(DRAWER, 0.81)), skin=True) == [DRAWER]
+
+
+@pytest.mark.parametrize("skin", [False, True])
+def test_a_quarter_is_enough_in_what_it_recognises_known_by_name_or_not(skin):
+    known = said(part(DRAWER, 0.21), part(LID, 0.19), discord=0.0)
+    assert kept(known, skin) == [DRAWER]
+    assert kept(replace(known, category=""), skin) == [DRAWER]
+
+
+def test_what_hangs_on_a_part_in_doubt_hangs_on_the_body():
+    on_it = replace(part(LID, 0.7), parent=1)
+    (found,) = settled(said(part(DRAWER, 0.3), on_it), 0.8, skin=False).parts
+    assert (int(found.pieces[0]), found.parent) == (LID, 0)
