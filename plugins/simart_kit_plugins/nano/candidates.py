@@ -70,10 +70,12 @@ def candidates(
         rows += _of_box(points, axes, min(number, 1))
         rows += _of_circles(points, axes, min(number, 1))
     rows += _of_contact(touching)
+    own = len(rows)
     for pin in pins:
-        rows += [row for row in _of_pin(pin) if not _is_there(row, rows)]
+        rows += _of_pin(pin)
     axis, origin, source, frame, misfit = zip(*rows, strict=True)
-    return Candidates(np.stack(axis), np.stack(origin), np.array(source), np.array(frame), np.array(misfit))
+    found = Candidates(np.stack(axis), np.stack(origin), np.array(source), np.array(frame), np.array(misfit))
+    return _without_doubles(found, own)
 
 
 def alike(found: Candidates) -> BoolArray:
@@ -176,10 +178,12 @@ def _of_pin(points: FloatArray) -> list[_Row]:
     return []
 
 
-def _is_there(row: _Row, rows: Sequence[_Row]) -> bool:
-    """Whether one of the rows says nearly the same."""
-    axis, origin, source = row[:3]
-    same = [
-        other for other in rows if (other[2] == SLIDE) == (source == SLIDE) and abs(other[0] @ axis) > _ALIKE
-    ]
-    return any(source == SLIDE or np.linalg.norm(np.cross(o[1] - origin, axis)) < _NEAR for o in same)
+def _without_doubles(found: Candidates, own: int) -> Candidates:
+    """The first `own`, and those of the others that say something else than all before them."""
+    same, kept = alike(found), list(range(own))
+    for row in range(own, len(found)):
+        if not same[row, kept].any():
+            kept.append(row)
+    return Candidates(
+        found.axis[kept], found.origin[kept], found.source[kept], found.frame[kept], found.misfit[kept]
+    )

@@ -50,15 +50,22 @@ def part_lines(cloud: Cloud, inside: BoolArray) -> PartLines:
 
     own, rest = cloud.points[inside], cloud.points[~inside]
     gap = np.minimum(np.asarray(cKDTree(rest).query(own)[0]), _FAR)
-    area = np.bincount(cloud.piece, cloud.area, cloud.count)
+    area = np.asarray(np.bincount(cloud.piece, cloud.area, cloud.count), dtype=np.float64)
     small = area < _SMALL * area[np.unique(cloud.piece[inside])].max()
-    pins = _pins(cloud, inside, small[cloud.piece])
+    pins = _pins(cloud, inside, small[cloud.piece], area)
     found = candidates(own, cloud.normals[inside], own[gap < TOUCHING], pins)
     return PartLines(own, rest, gap, found, _details(cloud, inside, small))
 
 
-def _pins(cloud: Cloud, inside: BoolArray, small: BoolArray) -> list[FloatArray]:
-    """(K, 3) points each of the part's pieces, and of small ones that it touches: the largest of either."""
+def _pins(cloud: Cloud, inside: BoolArray, small: BoolArray, area: FloatArray) -> list[FloatArray]:
+    """(K, 3) points each of the part's pieces, and of small ones that it touches: the largest of either.
+
+    Args:
+        cloud: of the object.
+        inside: (N,) points of the part.
+        small: (N,) points of small pieces.
+        area: (S,) of each piece.
+    """
     from scipy.spatial import cKDTree
 
     own = np.unique(cloud.piece[inside])
@@ -66,7 +73,6 @@ def _pins(cloud: Cloud, inside: BoolArray, small: BoolArray) -> list[FloatArray]
     if (~inside & small).any():
         gap = np.asarray(cKDTree(cloud.points[inside]).query(cloud.points[~inside & small])[0])
         beside = np.unique(cloud.piece[~inside & small][gap < TOUCHING])
-    area = np.bincount(cloud.piece, cloud.area, cloud.count)
     largest = [sorted(some.tolist(), key=lambda piece: -area[piece])[:_PINS] for some in (own, beside)]
     return [cloud.points[cloud.piece == piece] for some in largest for piece in some]
 

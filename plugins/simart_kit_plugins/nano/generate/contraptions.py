@@ -7,7 +7,7 @@ look at hinges, axles, gaps, grips and guides.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -84,7 +84,7 @@ class _Site:
             for column in range(columns)
         ]
         return [
-            _Site(self.origin + self.turn @ np.array(spot), self.turn, 0.9 * wide, 0.9 * high, self.open)
+            replace(self, origin=self.origin + self.turn @ np.array(spot), wide=0.9 * wide, high=0.9 * high)
             for spot in spots
         ]
 
@@ -92,7 +92,11 @@ class _Site:
         """The same with what was upright lying."""
         wide, high = (self.high, self.wide) if quarters % 2 else (self.wide, self.high)
         turn = self.turn @ rotation((0, 1, 0), quarters * np.pi / 2)
-        return _Site(self.origin, turn, wide, high, self.open)
+        return replace(self, turn=turn, wide=wide, high=high)
+
+    def scaled(self, size: float) -> _Site:
+        """The same on a body so many times as large."""
+        return replace(self, origin=size * self.origin, wide=size * self.wide, high=size * self.high)
 
 
 _Frame = tuple[Pieces, list[_Site]]
@@ -211,14 +215,14 @@ _FRAMES: Sequence[tuple[float, Callable[[Dice], _Frame]]] = (
 
 
 def _contraption(dice: Dice) -> Sequence[Body]:
-    kit, sites, (base, own, accent) = _begun(dice)
+    kit, sites, colors = _begun(dice)
     left = dice.whole(1, 6)
     for group in _cells(dice, sites):
         made = dice.weighted(_HANGING if group[0].open else _FITTINGS)
         moves = left > 0 and dice.chance(0.75)
         if not moves and (group[0].open or dice.chance(0.5)):
             continue
-        _fit(dice, kit, group, made if moves else fitted_leaves.decoy, (base, own, accent))
+        _fit(dice, kit, group, made if moves else fitted_leaves.decoy, colors)
         left -= moves
     return _placed(dice, kit)
 
@@ -238,7 +242,7 @@ def _begun(dice: Dice) -> tuple[Assembly, list[_Site], _Colors]:
     pieces, sites = dice.weighted(_FRAMES)(dice)
     colors = _looks(dice)
     kit.fix([size * piece for piece in pieces], colors[0])
-    return kit, [_scaled(site, size) for site in sites], colors
+    return kit, [site.scaled(size) for site in sites], colors
 
 
 def _fit(dice: Dice, kit: Assembly, group: Sequence[_Site], made: Fitting, colors: _Colors) -> None:
@@ -280,10 +284,6 @@ def _cells(dice: Dice, sites: list[_Site]) -> list[list[_Site]]:
         else:
             groups += [[cell] for cell in cells]
     return groups
-
-
-def _scaled(site: _Site, size: float) -> _Site:
-    return _Site(size * site.origin, site.turn, size * site.wide, size * site.high, site.open)
 
 
 def _looks(dice: Dice) -> _Colors:

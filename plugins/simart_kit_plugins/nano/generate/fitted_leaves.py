@@ -12,7 +12,7 @@ from ...shapes.outlines import SQUARE, rounded
 from ...shapes.placing import X, Y, at, moved, pointed, rotation, turned
 from ...shapes.primitives import Pieces, box, boxes, cylinder, open_box, prism, revolve, rod
 from .assembling import Assembly, disc, holder, shell
-from .fittings import Room, rim_of
+from .fittings import Room
 from .objects import hinge, slide
 from .rigging import ball_knob
 
@@ -28,9 +28,8 @@ def leaf(dice: Dice, room: Room) -> Assembly:
     thick = room.least * dice.between(0.02, 0.08)
     back = gap * dice.pick((0.2, 1.0, 2.0))
     if rim:
-        kit.fix(
-            rim_of(wide + 2 * gap, high + 2 * gap, rim, (back + thick) * dice.between(0.6, 1.0)), room.base
-        )
+        border, deep = rim + gap, (back + thick) * dice.between(0.6, 1.0)
+        kit.fix([fronts.frame(wide + 2 * border, high + 2 * border, deep, rim)], room.base)
     pieces, grip = _panel(dice, wide, high, thick), _grip(dice, wide, high, thick)
     line = (-wide / 2, -back - (thick if rim else 0.0), 0)
     label = dice.pick(("door", "flap", "cover", "lid", "hatch"))

@@ -12,9 +12,10 @@ import numpy as np
 
 from ...shapes import legs
 from ...shapes.dice import Dice
+from ...shapes.fronts import frame
 from ...shapes.outlines import SQUARE, rounded
 from ...shapes.placing import X, Y, around, at, moved, pointed, rotation, turned
-from ...shapes.primitives import Pieces, box, boxes, cylinder, prism, rod, torus, tube
+from ...shapes.primitives import box, boxes, cylinder, prism, rod, torus, tube
 from .assembling import Assembly, dial, disc, press, turning
 from .objects import Look, ball, hinge, spin
 from .rigging import ball_knob
@@ -67,8 +68,8 @@ def buttons(dice: Dice, room: Room) -> Assembly:
             key = pointed(prism(outline, (size, size, thick)), Y) + place
             kit.add("button", press(thick * dice.between(0.3, 0.8)), [([key], room.accent)])
     if dice.chance(0.3):
-        wide, high, rim = columns * cell, rows * cell, 0.06 * cell
-        kit.fix(rim_of(wide, high, rim, thick * dice.between(0.3, 1.0)), room.base)
+        rim, deep = 0.06 * cell, thick * dice.between(0.3, 1.0)
+        kit.fix([frame(columns * cell + 2 * rim, rows * cell + 2 * rim, deep, rim)], room.base)
     return kit
 
 
@@ -180,9 +181,3 @@ def bail(dice: Dice, room: Room) -> Assembly:
     bow = tube(np.column_stack([along * wide / 2, np.full(13, -off), shape]), thick, 8)
     kit.add("handle", hinge((0, -off, 0), (-1, 0, 0), dice.between(1.2, 2.4)), [([bow], room.accent)])
     return kit
-
-
-def rim_of(wide: float, high: float, rim: float, deep: float) -> Pieces:
-    """Four bars around a field, from y = 0 to -deep."""
-    sides = boxes((rim, deep, high + 2 * rim), [(s * (wide + rim) / 2, -deep / 2, 0) for s in (-1, 1)])
-    return [sides, boxes((wide, deep, rim), [(0, -deep / 2, s * (high + rim) / 2) for s in (-1, 1)])]
