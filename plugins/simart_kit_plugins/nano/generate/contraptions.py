@@ -121,7 +121,7 @@ def _blocks(dice: Dice) -> _Frame:
     pieces: Pieces = []
     sites: list[_Site] = []
     low = np.zeros(3)
-    for _ in range(dice.weighted([(5, 1), (3, 2), (1, 3)])):
+    for left in range(dice.weighted([(5, 1), (3, 2), (1, 3)]), 0, -1):
         size = np.array([dice.spread(0.25, 1), dice.spread(0.2, 1), dice.spread(0.15, 1)])
         style = dice.unit()
         outline = SQUARE if style < 0.6 else rounded(0.15) if style < 0.8 else ngon(dice.whole(8, 20))
@@ -129,13 +129,11 @@ def _blocks(dice: Dice) -> _Frame:
             size[1] = size[0]
         high = low + size
         pieces.append(prism(outline, size) + (low + high) / 2)
-        sites += _box_sites(low, high, style >= 0.8)
-        if dice.chance(0.5):
-            low = np.array([low[0], low[1], high[2]])
-            sites = [site for site in sites if site.turn is not _TOP]
-        else:
-            low = np.array([high[0], low[1], low[2]])
-            sites = [site for site in sites if site.turn is not _SIDES[1]]
+        front, right, back, aside, top = _box_sites(low, high, style >= 0.8)
+        on_it = dice.chance(0.5)  # and not to its right
+        low = np.array([low[0], low[1], high[2]] if on_it else [high[0], low[1], low[2]])
+        sites += [front, back, aside]
+        sites += [right, top] if left == 1 else [right] if on_it else [top]
     return pieces, sites
 
 
@@ -154,7 +152,7 @@ def _post(dice: Dice) -> _Frame:
         size = np.array([dice.between(0.2, 0.6), dice.between(0.15, 0.5), dice.between(0.1, 0.4)])
         low = np.array([-size[0] / 2, -size[1] / 2, high + flat])
         pieces.append(box(size, low + size / 2))
-        sites = [site for site in sites if site.turn is not _TOP] + _box_sites(low, low + size) * 2
+        sites = [*sites[:-1], *_box_sites(low, low + size)]
     return pieces, sites
 
 
@@ -165,8 +163,7 @@ def _bench(dice: Dice) -> _Frame:
     pieces = [piece + [0, 0, high] for piece in legs.feet(dice, wide, deep, high)]
     low = np.array([-wide / 2, -deep / 2, high])
     pieces.append(box((wide, deep, thick), (0, 0, high + thick / 2)))
-    sites = _box_sites(low, low + [wide, deep, thick])
-    return pieces, [sites[0], sites[1], sites[3], sites[4], *sites[4].cells(2, 1)[:1]]
+    return pieces, _box_sites(low, low + [wide, deep, thick])
 
 
 def _frame(dice: Dice) -> _Frame:
@@ -192,7 +189,7 @@ def _tub(dice: Dice) -> _Frame:
     wall = min(wide, deep) * dice.between(0.02, 0.08)
     sites = _box_sites(np.array([-wide / 2, -deep / 2, 0]), np.array([wide / 2, deep / 2, high]))
     mouth = _Site(sites[4].origin, _TOP, wide, deep, True)
-    return [open_box((wide, deep, high), wall)], [*sites[:4], mouth, mouth]
+    return [open_box((wide, deep, high), wall)], [*sites[:4], mouth]
 
 
 def _plank(dice: Dice) -> _Frame:
@@ -266,13 +263,9 @@ def _placed(dice: Dice, kit: Assembly) -> Sequence[Body]:
 
 def _cells(dice: Dice, sites: list[_Site]) -> list[list[_Site]]:
     """Groups of sites for one fitting each, in a random order: whole sides, or cells of them."""
-    taken: list[_Site] = []
     groups = []
     for number in sorted(range(len(sites)), key=lambda _: dice.unit()):
         site = sites[number]
-        if any(np.allclose(site.origin, other.origin) and site.open == other.open for other in taken):
-            continue
-        taken.append(site)
         if site.open:
             groups.append([site])
             continue
