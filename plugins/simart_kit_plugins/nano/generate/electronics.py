@@ -11,6 +11,7 @@ from ...shapes.outlines import ngon, rounded
 from ...shapes.placing import X, Z, moved, pointed, rotation, turned
 from ...shapes.primitives import Pieces, box, boxes, cylinder, prism, revolve, superquadric, torus
 from . import looks
+from .assembling import PAD
 from .category import Category
 from .objects import Body, Look, Motion, ball, hinge, slide, spin, surface
 from .rigging import DOWN, LEFT, RIGHT, UP, Rig, ball_knob, lying, plate
@@ -52,13 +53,13 @@ def _keyboard_deck(dice: Dice, whole: Rig, area: tuple[float, float], at: FloatA
     width, depth = area
     rows, columns = dice.whole(4, 6), dice.whole(10, 15)
     pitch = np.array([width / columns, depth / rows])
-    rise = 0.0015
-    key = box((0.86 * pitch[0], 0.86 * pitch[1], rise), (0, 0, rise / 2))
+    size = 0.86 * pitch
+    printed, key = (box((*size, high), (0, 0, high / 2)) for high in (PAD, 0.0024))
     spots = [at + [x, y, 0] for x, y in grid(width, depth, rows, columns)]
     first = dice.whole(0, rows - 1) * columns
     live = dice.whole(3, columns) if dice.chance(0.35) else 0
     still = [spot for k, spot in enumerate(spots) if not first <= k < first + live]
-    whole.dress(0, surface([key + spot for spot in still], look))
+    whole.dress(0, surface([printed + spot for spot in still], look))
     for spot in spots[first : first + live]:
         whole.add("key", press(0.0013), surface([key + spot], look))
 
@@ -190,14 +191,16 @@ def _cross(dice: Dice, whole: Rig, middle: FloatArray, look: Look) -> None:
 def _thumbstick(dice: Dice, whole: Rig, at: FloatArray, look: Look) -> None:
     """A stick that tilts every way, or first one way and then the other."""
     scale = dice.between(0.8, 1.2)
-    stick = surface([revolve(_STICK * scale, 14) + at], look)
+    stick = [revolve(_STICK * scale, 14) + at]
     whole.dress(0, surface([torus(0.011 * scale, 0.0015, 16) + at], looks.darker(look)))
     if dice.chance(0.5):
-        whole.add("thumbstick", ball(at), stick)
+        whole.add("thumbstick", ball(at), surface(stick, look))
         return
-    collar = surface([cylinder(0.007 * scale, 0.003, 12) + at], looks.darker(look))
+    # Each of the two turns about the pin that it has.
+    pins = [lying(0.001 * scale, 0.019 * scale, axis, 8) + at + [0, 0, 0.001 * scale] for axis in (0, 1)]
+    collar = surface([cylinder(0.007 * scale, 0.003, 12) + at, pins[0]], looks.darker(look))
     first = whole.add("stick collar", hinge(at, RIGHT, 0.4, -0.4), collar)
-    whole.add("thumbstick", hinge(at, (0, 1, 0), 0.4, -0.4), stick, parent=first)
+    whole.add("thumbstick", hinge(at, (0, 1, 0), 0.4, -0.4), surface([*stick, pins[1]], look), parent=first)
 
 
 def _triggers(dice: Dice, whole: Rig, size: tuple[float, float, float], look: Look) -> None:
@@ -241,9 +244,15 @@ def _remote_control(dice: Dice) -> list[Body]:
         )
     if dice.chance(0.4):
         cover = slab(dice, width * 0.8, depth * 0.4, 0.002) + [0, -0.25 * depth, -0.0015]
-        away = slide((0, -1, 0), 0.3 * depth)
-        swing = hinge((0, -0.45 * depth, -0.001), LEFT, 1.5)
-        whole.add("battery cover", away if dice.chance(0.6) else swing, surface([cover], looks.darker(shell)))
+        if dice.chance(0.6):  # with ribs to push it by
+            ribs = [
+                box((0.4 * width, 0.002, 0.001), (0, (0.01 * k - 0.25) * depth, -0.003)) for k in (-2, 0, 2)
+            ]
+            motion, more = slide((0, -1, 0), 0.3 * depth), ribs
+        else:
+            pin = np.array([0, -0.45 * depth, -0.001])
+            motion, more = hinge(pin, LEFT, 1.5), [lying(0.001, 0.5 * width, X, 8) + pin]
+        whole.add("battery cover", motion, surface([cover, *more], looks.darker(shell)))
     return whole.bodies()
 
 

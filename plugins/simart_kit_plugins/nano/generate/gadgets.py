@@ -7,7 +7,7 @@ import numpy as np
 from ...shapes.dice import Dice
 from ...shapes.handles import knob
 from ...shapes.outlines import ngon, rounded
-from ...shapes.placing import X, Y, around, moved, pointed
+from ...shapes.placing import X, Y, around, moved, pointed, rotation, turned
 from ...shapes.primitives import (
     box,
     cylinder,
@@ -19,6 +19,7 @@ from ...shapes.primitives import (
     tube,
 )
 from . import looks
+from .assembling import dial, turning
 from .category import Category
 from .objects import Body, hinge, slide, spin, surface
 from .rigging import BACK, DOWN, FRONT, LEFT, RIGHT, UP, Rig, ball_knob, lying, upright_ring
@@ -111,12 +112,16 @@ def _headphones(dice: Dice) -> list[Body]:
         arm = surface([box((0.008, 0.016, 0.05), end + [0, 0, -0.012])], shell)
         parent = whole.add("slider", slide(DOWN, 0.03), arm, name=f"{name}_slider")
         pin = end + [0, 0, -0.05]
+        # It tips about a level pin, or turns about an upright one.
+        tips = dice.chance(0.5)
+        place = end + [0, 0, -0.035]
+        joint = lying(0.006, 0.03, Y, 8) if tips else cylinder(0.006, 0.03, 8)
         cup = [
             pointed(superquadric((2.3 * radius, 2 * radius, 0.03), 0.5, 1.0, 7), X) + pin,
-            *moved([lying(0.006, 0.03, X, 8)], end + [0, 0, -0.035]),
+            joint + place,
         ]
         pad = pointed(torus(0.75 * radius, 0.012, 16), X) + pin - [s * 0.018, 0, 0]
-        turns = dice.pick((hinge(pin + [0, 0, 0.02], BACK, 0.4, -0.4), hinge(pin, UP, 1.5, -0.3)))
+        turns = hinge(place, BACK, 0.4, -0.4) if tips else hinge(place, UP, 1.5, -0.3)
         whole.add(
             "ear cup", turns, surface(cup, shell), surface([pad], soft), parent=parent, name=f"{name}_cup"
         )
@@ -151,8 +156,7 @@ def _radio(dice: Dice) -> list[Body]:
     )
     for k in range(dice.whole(1, 3)):
         at = np.array([(0.12 + 0.13 * k) * width, front, 0.3 * high])
-        dial = surface(moved(knob(dice, 0.045 * width), at), metal)
-        whole.add("knob", spin(at, FRONT) if dice.chance(0.6) else hinge(at, FRONT, 4.5), dial)
+        whole.add("knob", turning(dice, at), surface(moved(dial(dice, 0.045 * width), at), metal))
     for k in range(dice.whole(0, 5)):
         key = box((0.06 * width, 0.4 * depth, 0.008), ((0.4 - 0.08 * k) * width, 0, high + 0.004))
         whole.add("button", slide(DOWN, 0.004), surface([key], looks.plastic(dice)))
@@ -209,6 +213,8 @@ def _safe(dice: Dice) -> list[Body]:
         whole.add("handle", hinge(spot, FRONT, 1.3), surface(turn, metal), parent=door)
     at = np.array([side * 0.22 * wide, front - 0.004, 0.55 * high])
     if dice.chance(0.4):
+        marks = turned(around([box((0.005, 0.002, 0.002), (0.044, 0, 0))], 12), rotation(RIGHT, np.pi / 2))
+        whole.dress(door, surface(moved(marks, at), metal))
         whole.add("dial", spin(at, FRONT), surface(moved(knob(dice, 0.035), at), metal), parent=door)
         return whole.bodies()
     pad = min(0.11, 0.32 * wide)

@@ -180,7 +180,7 @@ def _skateboard(dice: Dice) -> list[Body]:
         lean = np.array([0, s * 0.7, 0.7])
         truck = [
             box((0.7 * wide, 0.03, 0.025), at + [0, 0, -0.03]),
-            rod(at, at + [0, 0, -0.035], 0.015),
+            rod(at, at - 0.045 * lean, 0.012),  # the kingpin, about which it steers
             lying(0.006, wide, X, 8) + at + [0, 0, -0.035],
         ]
         steers = hinge(at, lean, 0.25, -0.25)

@@ -81,10 +81,12 @@ def _screen(dice: Dice, kit: Assembly, y: float, level: float, width: float) -> 
     panel = [box((wide, 0.025, wide * 0.5), pin + [0, -0.02, rise + wide * 0.2])]
     dark = Look("plastic", (30, 30, 34))
     if dice.chance(0.5):
+        kit.fix([cylinder(0.02, 0.012, 14) + pin], dark)
         kit.add("screen", hinge(pin, (0, 0, 1), 1.4, -1.4), [(post + panel, dark)])
     else:
+        barrel = [pointed(cylinder(0.014, 0.05, 12), X) + pin + [0, 0, rise]]
         kit.fix(post, dark)
-        kit.add("screen", hinge(pin + [0, 0, rise], (1, 0, 0), 0.5, -0.3), [(panel, dark)])
+        kit.add("screen", hinge(pin + [0, 0, rise], (1, 0, 0), 0.5, -0.3), [(panel + barrel, dark)])
 
 
 def _printer(dice: Dice) -> list[Body]:

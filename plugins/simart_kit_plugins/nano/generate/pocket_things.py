@@ -145,9 +145,7 @@ def _usb_stick(dice: Dice) -> list[Body]:
         ]
         sleeve += [cylinder(0.3 * wide, 0.0012, 12) + pin + [0, 0, s * (thick / 2 + 0.0015)] for s in (-1, 1)]
         sleeve.append(box((wide + 0.001, 0.001, thick + 0.002), (0, 0.43 * long - reach, 0)))
-        whole.add(
-            "sleeve", spin(pin, UP) if dice.chance(0.5) else hinge(pin, UP, 3.14), surface(sleeve, steel)
-        )
+        whole.add("sleeve", spin(pin, UP), surface(sleeve, steel))
     else:
         inner = open_box((wide, thick, long), 0.001)[..., [0, 2, 1]] * [1, -1, 1] + [0, long / 2, 0]
         whole = Rig(surface([inner], shell), label="shell")

@@ -100,7 +100,8 @@ def fork(radius: float, width: float) -> Pieces:
     x = width / 2 + 0.7 * thick
     reach = 1.35 * radius
     cheeks = boxes((thick, 0.7 * radius, reach), [(s * x, 0.25 * radius, -reach / 2) for s in (-1, 1)])
-    return [cheeks, box((2 * x + thick, 0.9 * radius, thick), (0, 0.2 * radius, -thick / 2))]
+    stem = cylinder(0.15 * radius, 0.24 * radius, 8) - [0, 0, 0.12 * radius]
+    return [cheeks, box((2 * x + thick, 0.9 * radius, thick), (0, 0.2 * radius, -thick / 2)), stem]
 
 
 def caster_hub(radius: float) -> FloatArray:

@@ -37,5 +37,6 @@ def caster(dice: Dice, radius: float, top: Sequence[float], swivels: bool, name:
     spots = [(s * 0.62 * radius, trail, -0.75 * radius) for s in (-1, 1)]
     cheeks = boxes((thin, radius, 1.5 * radius), spots)
     plate = box((1.4 * radius, radius + trail, thin), (0, trail / 2, -thin / 2))
-    fork = surface(moved([cheeks, plate], top), looks.metal(dice))
+    stem = cylinder(0.2 * radius, 0.35 * radius, 8) - [0, 0, 0.17 * radius]
+    fork = surface(moved([cheeks, plate, stem], top), looks.metal(dice))
     return Leaf(f"{name}_caster", "caster", (fork,), spin(top, (0, 0, 1)), (rolling,))

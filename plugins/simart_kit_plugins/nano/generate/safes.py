@@ -13,8 +13,9 @@ from ...shapes.dice import Dice
 from ...shapes.fronts import frame
 from ...shapes.handles import knob
 from ...shapes.placing import Y, around, moved, pointed, rotation, turned
-from ...shapes.primitives import Pieces, between, box, boxes, cylinder, open_box, rod, sheet, torus
+from ...shapes.primitives import Pieces, between, box, cylinder, open_box, rod, sheet, torus
 from . import leaves, looks
+from .assembling import press
 from .assembly import Assembly, Leaf, until_moving
 from .carcass import Size, any_size, even_or_random, shelves
 from .category import Category
@@ -91,14 +92,15 @@ def _safe_door(dice: Dice, style: Style, opening: Opening, side: int, trim: Look
 
 
 def _lock(dice: Dice, leaf: Leaf, kind: str, spot: FloatArray, reach: float, trim: Look) -> Leaf:
-    """With a dial or key that turns, or with a keypad that is part of the door."""
+    """With a dial or key that turns, or with keys to press."""
     if kind == "keypad":
         high = 0.18 * reach
         plate = box((0.75 * high, 0.008, high), spot - [0, 0.004, 0])
         grid = [(x * 0.22 * high, -0.01, z * 0.2 * high) for x in (-1, 0, 1) for z in (-1.5, -0.5, 0.5, 1.5)]
-        keys = boxes((0.15 * high, 0.004, 0.13 * high), spot + np.array(grid))
-        more = (surface([plate], looks.plastic(dice)), surface([keys], trim))
-        return replace(leaf, surfaces=leaf.surfaces + more)
+        leaf = replace(leaf, surfaces=(*leaf.surfaces, surface([plate], looks.plastic(dice))))
+        form = box((0.15 * high, 0.004, 0.13 * high))
+        keys = [Leaf("key", "key", (surface([form + spot + place], trim),), press(0.003)) for place in grid]
+        return leaf.with_children(*keys)
     radius = dice.between(0.05, 0.1) * reach if kind == "dial" else 0.012
     if kind == "dial":
         marks = turned(

@@ -140,6 +140,7 @@ def _jug(
     number = kit.add("jug", free(), [(jug, looks.glass(dice)), (moved([ear], base), looks.plastic(dice))])
     pin = np.array([0, y - radius * 0.85, floor + 0.015 + high])
     lid = [cylinder(radius * 0.9, 0.008, 18) + [0, y, pin[2] + 0.004]]
+    lid.append(pointed(cylinder(0.003, 0.5 * radius, 8), X) + pin)
     kit.add("lid", hinge(pin, (1, 0, 0), 0.45), [(lid, looks.plastic(dice))], number)
 
 

@@ -7,9 +7,10 @@ import numpy as np
 from simart_kit.arrays import FloatArray
 
 from ...shapes.dice import Dice
+from ...shapes.fronts import frame
 from ...shapes.outlines import SQUARE, rounded
 from ...shapes.placing import X, Y, moved, pointed, rotation, turned
-from ...shapes.primitives import Pieces, box, boxes, cylinder, loft, prism, revolve, rod, superquadric, torus
+from ...shapes.primitives import Pieces, box, boxes, cylinder, loft, prism, revolve, rod, superquadric
 from . import looks
 from .assembling import Assembly, dial, disc, press, swing, turning
 from .category import Category
@@ -72,6 +73,8 @@ def _rocker(dice: Dice, kit: Assembly, cell: float, look: Look) -> None:
     shape: Pieces = [box((wide, off + bend, high), (0, -(off + bend) / 2 + 0.001, 0))]
     if dice.chance(0.6):
         shape = [_wedge(wide, high, off, bend)]
+    elif high < 1.4 * wide:  # a rib along the line shows which way it tips
+        shape.append(box((wide, 0.0012, 0.05 * high), (0, -off - bend, 0)))
     if dice.chance(0.3):
         shape.append(box((wide * 0.1, 0.001, high * 0.1), (0, -off - bend, high * 0.3)))
     if dice.chance(0.2):
@@ -102,7 +105,8 @@ def _toggle(dice: Dice, kit: Assembly, cell: float, look: Look) -> None:
             )
             * [1, -1, 1]
         ]
-    kit.fix([pointed(torus(thick * 2.2, thick * 0.5, 14), Y)], looks.metal(dice))
+    # A slot shows which way it goes.
+    kit.fix([frame(3.4 * thick, 7 * thick, 0.8 * thick, 0.6 * thick)], looks.metal(dice))
     if dice.chance(0.5):
         lever = turned(lever, rotation((1, 0, 0), tip))
         motion = hinge((0, 0, 0), (-1, 0, 0), 2 * tip)

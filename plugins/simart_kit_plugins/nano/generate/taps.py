@@ -112,7 +112,7 @@ def _pull_out(dice: Dice, kit: Assembly, line: FloatArray, radius: float, metal:
 
 
 def _top_lever(dice: Dice, kit: Assembly, height: float, body: float, reach: float, metal: Look) -> None:
-    """A lever on top: it turns with its cap, tilts, or does both in a chain."""
+    """A lever on top: it turns with its cap, tilts about a pin, or does both in a chain, on a ring."""
     cap: Pieces = [cylinder(body * 0.98, body * 0.5, 16) + [0, 0, height + 0.25 * body + 0.001]]
     top = height + 0.5 * body
     end = (0, -reach, top + reach * dice.between(0.0, 0.4))
@@ -122,13 +122,15 @@ def _top_lever(dice: Dice, kit: Assembly, height: float, body: float, reach: flo
     tilt = dice.between(0.3, 0.6)
     pin = (0.0, 0.0, top - 0.1 * body)
     style = dice.unit()
+    bolt = pointed(cylinder(body * 0.15, 2.2 * body, 8), X) + pin
     if style < 0.35:
-        kit.add("lever", hinge(pin, (-1, 0, 0), tilt), [(cap + arm, metal)])
+        kit.add("lever", hinge(pin, (-1, 0, 0), tilt), [([*cap, *arm, bolt], metal)])
     elif style < 0.65:
         kit.add("lever", _both_ways(dice.between(0.6, 1.2), pin, (0, 0, 1)), [(cap + arm, metal)])
     else:
+        cap.append(cylinder(body * 1.15, body * 0.15, 16) + [0, 0, height + 0.1 * body])
         turn = kit.add("cap", _both_ways(dice.between(0.6, 1.2), pin, (0, 0, 1)), [(cap, metal)])
-        kit.add("lever", hinge(pin, (-1, 0, 0), tilt), [(arm, metal)], turn)
+        kit.add("lever", hinge(pin, (-1, 0, 0), tilt), [([*arm, bolt], metal)], turn)
 
 
 def _side_lever(dice: Dice, kit: Assembly, body: float, level: float, metal: Look) -> None:
@@ -186,15 +188,18 @@ def _two_handles(dice: Dice, kit: Assembly, metal: Look) -> None:
     seed, grip = dice.whole(0, 2**31), metal if dice.chance(0.7) else looks.ceramic(dice)
     lean = dice.between(0.2, 0.8) if dice.chance(0.3) else 0.0
     upper = dice.pick((1.57, 1.57, 3.14, 6.28))
-    ends = dice.chance(0.75)
     for side in (-1, 1):
         kit.fix([cylinder(base * 0.9, rise, 14) + [side * gap, 0, rise / 2]], metal)
         turn = rotation((0, 1, 0), side * lean)
         foot = np.array([side * gap, 0, rise + 0.001])
         shape = moved(turned(_cross(Dice(seed), base * 1.1), turn), foot)
         axis = turn @ [0, 0, 1]
-        motion = hinge(foot, side * axis, upper) if ends else spin(foot, axis)
-        kit.add("handle", motion, [(shape, grip)], name="left_handle" if side < 0 else "right_handle")
+        kit.add(
+            "handle",
+            hinge(foot, side * axis, upper),
+            [(shape, grip)],
+            name="left_handle" if side < 0 else "right_handle",
+        )
     if dice.chance(0.3):
         pin = [
             rod((0, base * 1.3, 0), (0, base * 1.3, 0.06), 0.003),
@@ -306,9 +311,8 @@ def _valve_unit(dice: Dice, kit: Assembly, pipe: float, wheel: bool, metal: Look
     if wheel:
         radius = pipe * dice.between(1.6, 3.5)
         shape_ = moved(_wheel(dice, radius), (0, 0, high + 0.1 * radius))
-        motion = spin((0, 0, high), (0, 0, 1)) if dice.chance(0.7) else hinge((0, 0, high), (0, 0, 1), 6.28)
         kit.fix([cylinder(pipe * 0.25, 0.3 * radius, 8) + [0, 0, high]], metal)
-        kit.add("wheel", motion, [(shape_, look)])
+        kit.add("wheel", spin((0, 0, high), (0, 0, 1)), [(shape_, look)])
         return
     arm = _lever_arm(dice, pipe * dice.between(2.5, 6), pipe)
     turn = rotation((0, 0, 1), dice.pick((0, np.pi)))
