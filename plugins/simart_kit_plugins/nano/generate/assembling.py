@@ -47,6 +47,10 @@ class Assembly:
         """Bodies so far, the root included."""
         return len(self._drafts)
 
+    def points(self, number: int) -> FloatArray:
+        """(N, 3) corners of a body."""
+        return np.concatenate([one.triangles.reshape(-1, 3) for one in self._drafts[number].surfaces])
+
     def fix(self, pieces: Pieces, look: Look, to: int = 0) -> None:
         """Adds pieces to a body, the root unless told."""
         if pieces:

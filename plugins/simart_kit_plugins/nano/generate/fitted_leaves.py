@@ -12,7 +12,7 @@ from ...shapes.outlines import SQUARE, rounded
 from ...shapes.placing import X, Y, at, moved, pointed, rotation, turned
 from ...shapes.primitives import Pieces, box, boxes, cylinder, open_box, prism, revolve, rod
 from .assembling import Assembly, disc, holder, shell
-from .fittings import Room
+from .fittings import Room, standing
 from .objects import hinge, slide
 from .rigging import ball_knob
 
@@ -110,7 +110,7 @@ def plunger(dice: Dice, room: Room) -> Assembly:
     kit, radius = Assembly(), room.least * dice.between(0.04, 0.15)
     long, free = room.least * dice.between(0.3, 0.9), room.least * dice.between(0.2, 0.8)
     sleeve = _sleeve(1.05 * radius, 1.35 * radius, long, 14)
-    kit.fix(turned([sleeve], rotation((1, 0, 0), np.pi / 2)), room.base)
+    kit.fix(standing([sleeve]), room.base)
     tip = -long - free - 2.5 * radius
     most = min(0.8 * free, 0.4 * long)  # in, before it meets the plane
     pieces = [rod((0, -1.1 * most, 0), (0, tip, 0), radius, 12)]

@@ -15,7 +15,7 @@ from ...shapes.dice import Dice
 from ...shapes.fronts import frame
 from ...shapes.outlines import SQUARE, rounded
 from ...shapes.placing import X, Y, around, at, moved, pointed, rotation, turned
-from ...shapes.primitives import box, boxes, cylinder, prism, rod, torus, tube
+from ...shapes.primitives import Pieces, box, boxes, cylinder, prism, rod, torus, tube
 from .assembling import Assembly, dial, disc, press, turning
 from .objects import Look, ball, hinge, spin
 from .rigging import ball_knob
@@ -42,6 +42,11 @@ class Room:
 
 
 Fitting = Callable[[Dice, Room], Assembly]
+
+
+def standing(pieces: Pieces) -> Pieces:
+    """What stands on z = 0, standing off the plane y = 0 instead."""
+    return turned(pieces, rotation((1, 0, 0), np.pi / 2))
 
 
 def knob(dice: Dice, room: Room) -> Assembly:
@@ -74,15 +79,17 @@ def buttons(dice: Dice, room: Room) -> Assembly:
 
 
 def toggle(dice: Dice, room: Room) -> Assembly:
-    """A short lever that tips up and down, or a stick that tips every way."""
+    """A short lever that tips up and down on a long plate, or a stick on a round one that tips every way."""
     kit, radius = Assembly(), room.least * dice.between(0.04, 0.12)
     reach = room.least * dice.between(0.3, 0.8)
-    kit.fix([disc(radius * dice.between(1.5, 4), radius)], room.base)
+    flat, tips = radius * dice.between(1.5, 4), dice.chance(0.65)
+    slot = box((2 * flat, radius, min(5 * flat, room.high)), (0, -radius / 2, 0))
+    kit.fix([slot if tips else disc(flat, radius)], room.base)
     tip = (0.0, -reach, 0.0)
     pieces = [rod((0, -radius, 0), tip, radius * 0.8, 8)]
     if dice.chance(0.6):
         pieces += moved([ball_knob(radius * dice.between(1.2, 2.2))], tip)
-    if dice.chance(0.35):
+    if not tips:
         kit.add("stick", ball((0, -radius, 0)), [(pieces, room.accent)])
         return kit
     most = dice.between(0.2, 0.7)
@@ -154,8 +161,7 @@ def handwheel(dice: Dice, room: Room) -> Assembly:
     flat = [torus(ring, thick, 20), cylinder(2 * thick, 2 * thick, 12), *spokes]
     pieces = moved([pointed(piece, Y) for piece in flat], (0, -off, 0))
     stem = rod((0, 0, 0), (0, -off, 0), thick, 8)
-    motion = spin((0, 0, 0), (0, 1, 0)) if dice.chance(0.6) else turning(dice, (0, 0, 0))
-    kit.add("handle wheel", motion, [([*pieces, stem], room.own)])
+    kit.add("handle wheel", spin((0, 0, 0), (0, 1, 0)), [([*pieces, stem], room.own)])
     return kit
 
 
