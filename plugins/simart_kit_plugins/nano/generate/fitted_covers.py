@@ -181,7 +181,7 @@ def hung_panel(dice: Dice, room: Room) -> Assembly:
     pieces += _rollers(dice, wide, thick, hung * (high / 2 + 0.5 * rail), rail)
     motion = slide((1, 0, 0), (room.wide - wide) * dice.between(0.8, 1.0))
     parts = [(moved(pieces, (x, -off - 1.5 * thick, 0)), room.own)]
-    kit.add(dice.pick(("sliding door", "sliding door")), motion, parts)
+    kit.add("sliding door", motion, parts)
     return kit
 
 
