@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import torch
 from simart_kit_plugins.nano.config import NanoConfig
+from simart_kit_plugins.nano.network import NanoNetwork
 from simart_kit_plugins.nano.training import checkpoint, pool
 from simart_kit_plugins.nano.training.loop import batch_rows, train, with_names
 from simart_kit_plugins.nano.training.plan import UNSEEN, TrainingPlan
@@ -91,6 +92,27 @@ def test_a_training_goes_on_from_the_weights_of_a_model(plan, objects, tmp_path)
     other = further.model_copy(update={"network": plan.network.model_copy(update={"channels": 32})})
     with pytest.raises(BadInputError, match=r"has other channels than this training: begin without --start"):
         checkpoint.begun(other)
+
+
+def test_names_that_the_start_does_not_know_begin_afresh_and_the_others_keep_their_rows(
+    plan, objects, tmp_path
+):
+    save_network(train(plan, objects, tmp_path / "first", lambda row: None), tmp_path / "model")
+    then, labels = weights(load_model(tmp_path / "model").network), plan.network.labels
+    network = plan.network.model_copy(update={"labels": ("a new part", *labels[1:])})
+    further = plan.model_copy(update={"start": str(tmp_path / "model"), "network": network, "seed": 1})
+    fresh, begun = weights(NanoNetwork(network, 1)), weights(checkpoint.begun(further).network)
+    for tensor in ("label.weight", "label.bias"):
+        assert torch.equal(begun[tensor][1], fresh[tensor][1])
+        assert torch.equal(begun[tensor][0], then[tensor][0])
+        assert torch.equal(begun[tensor][2:], then[tensor][2:])
+    # What is new has nothing to be blended with.
+    alone = train(further, objects, tmp_path / "second", lambda row: None)
+    new = weights(alone)["label.bias"].clone()
+    blend = further.model_copy(update={"start_share": 0.25})
+    both = weights(train(blend, objects, tmp_path / "second", lambda row: None))["label.bias"]
+    torch.testing.assert_close(both[1], new[1])
+    torch.testing.assert_close(both[2:], 0.25 * then["label.bias"][2:] + 0.75 * new[2:])
 
 
 def test_a_share_of_the_weights_of_the_start_stays_in_the_result(plan, objects, tmp_path):

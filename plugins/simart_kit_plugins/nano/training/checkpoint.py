@@ -14,7 +14,7 @@ from torch.optim import AdamW
 from simart_kit.errors import BadInputError, OutputError
 
 from ..network import NanoNetwork
-from ..weights import load_model
+from .going_on import weights_of_start
 from .plan import TrainingPlan
 
 FOLDER, TENSORS, STATE = "checkpoint", "state.safetensors", "state.json"
@@ -48,19 +48,12 @@ def begun(plan: TrainingPlan) -> Progressing:
     """The state before the first step: random weights, or those of the model to go on from.
 
     Raises:
-        BadInputError: that model cannot be read, or is of another network than the plan's.
+        BadInputError: that model cannot be read, or its network is of other sizes than the plan's.
     """
-    if not plan.start:
-        return _with(NanoNetwork(plan.network, plan.seed), plan)
-    network = load_model(Path(plan.start)).network
-    own, wanted = network.config.model_dump(), plan.network.model_dump()
-    other = [name for name in own if own[name] != wanted[name]]
-    if other:
-        raise BadInputError(
-            f"start: {plan.start} has other {' and '.join(other)} than this training: "
-            "begin without --start, or go on from a model that was trained with them"
-        )
-    return _with(network.train(), plan)
+    network = NanoNetwork(plan.network, plan.seed).to(plan.device)
+    if plan.start:
+        network.load_state_dict(weights_of_start(plan, network.state_dict()))
+    return _with(network, plan)
 
 
 def result(state: Progressing, plan: TrainingPlan) -> NanoNetwork:
@@ -74,7 +67,7 @@ def result(state: Progressing, plan: TrainingPlan) -> NanoNetwork:
     """
     weights = state.mean
     if plan.start and plan.start_share:
-        start = begun(plan).mean
+        start = weights_of_start(plan, state.mean)
         weights = {name: torch.lerp(mean, start[name], plan.start_share) for name, mean in weights.items()}
     state.network.load_state_dict(weights)
     return state.network.eval()
