@@ -30,7 +30,9 @@ HeldOut = Annotated[int | None, typer.Option(min=1, metavar="N", help="Objects t
 Rate = Annotated[float | None, typer.Option(metavar="X", help="Step size of AdamW.")]
 Start = Annotated[
     Path | None,
-    typer.Option(metavar="DIR", help="Go on from the weights of this model; names that it does not know begin afresh."),
+    typer.Option(
+        metavar="DIR", help="Go on from the weights of this model; names that it does not know begin afresh."
+    ),
 ]
 StartShare = Annotated[
     float | None,
