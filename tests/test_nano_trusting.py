@@ -18,7 +18,7 @@ def part(piece, certainty, kind="prismatic"):
     )
 
 
-def said(*parts, discord=0.005):
+def said(*parts, discord=0.002):
     moves = np.full(3, 0.9)
     return Prediction(parts, (), np.zeros(3, int), moves, "desk", discord, {}, (1.0, 1.0))
 
