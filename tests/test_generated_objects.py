@@ -173,6 +173,8 @@ def test_a_mistake_is_one_line_and_writes_nothing(tmp_path, capfd, monkeypatch):
     (line,) = re.findall(r"^error: .*$", capfd.readouterr().err, re.MULTILINE)
     assert "unknown category 'unicorn': use all, or one of " in line
     assert CATEGORIES[0].name in line
+    assert run(["generate", "motion_controler", "out"]) == 2
+    assert "unknown category 'motion_controler': did you mean motion_controller? " in capfd.readouterr().err
     (tmp_path / "file").write_text("mine")
     assert run(["generate", CATEGORIES[0].name, "file"]) != 0
     assert (tmp_path / "file").read_text() == "mine"

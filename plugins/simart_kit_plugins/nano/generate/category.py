@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -35,5 +36,7 @@ def named(name: str, categories: Sequence[Category]) -> Category:
     for category in categories:
         if category.name == name:
             return category
-    known = ", ".join(category.name for category in categories)
-    raise BadInputError(f"unknown category '{name}': use all, or one of {known}")
+    known = sorted(category.name for category in categories)
+    near = difflib.get_close_matches(name, known, 1)
+    guess = f"did you mean {near[0]}? Known are" if near else "use all, or one of"
+    raise BadInputError(f"unknown category '{name}': {guess} {', '.join(known)}")
