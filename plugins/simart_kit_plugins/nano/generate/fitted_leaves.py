@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray
-
 from ...shapes import fronts
 from ...shapes.dice import Dice
 from ...shapes.outlines import SQUARE, rounded
 from ...shapes.placing import X, Y, at, moved, pointed, rotation, turned
-from ...shapes.primitives import Pieces, box, boxes, cylinder, open_box, prism, revolve, rod
+from ...shapes.primitives import Pieces, box, boxes, cylinder, open_box, prism, rod
 from .assembling import Assembly, disc, holder, shell
-from .fittings import Room, standing
+from .fittings import Room, sleeve_of, standing
 from .objects import hinge, slide
 from .rigging import ball_knob
 
@@ -109,7 +107,7 @@ def plunger(dice: Dice, room: Room) -> Assembly:
     """A rod in a sleeve, with a knob, a plate or a bar at its end."""
     kit, radius = Assembly(), room.least * dice.between(0.04, 0.15)
     long, free = room.least * dice.between(0.3, 0.9), room.least * dice.between(0.2, 0.8)
-    sleeve = _sleeve(1.05 * radius, 1.35 * radius, long, 14)
+    sleeve = sleeve_of(1.05 * radius, 1.35 * radius, long, 14)
     kit.fix(standing([sleeve]), room.base)
     tip = -long - free - 2.5 * radius
     most = min(0.8 * free, 0.4 * long)  # in, before it meets the plane
@@ -146,7 +144,7 @@ def telescope(dice: Dice, room: Room) -> Assembly:
     kit, wide = Assembly(), room.wide * dice.between(0.3, 0.7)
     radius, long = room.least * dice.between(0.015, 0.04), room.high * dice.between(0.5, 0.8)
     low, off = -room.high / 2, 1.6 * radius
-    sleeve = _sleeve(1.05 * radius, 1.5 * radius, long, 10)
+    sleeve = sleeve_of(1.05 * radius, 1.5 * radius, long, 10)
     kit.fix(at(sleeve, [(s * wide / 2, -off, low) for s in (-1, 1)]), room.base)
     start, top = low + 0.1 * long, low + long * dice.between(1.03, 1.4)
     bar = cylinder(radius, top - start, 10)
@@ -203,9 +201,3 @@ def _grip(dice: Dice, wide: float, high: float, thick: float, middle: bool = Fal
     pieces = [rod((0, -off, -long / 2), (0, -off, long / 2), radius, 8)]
     pieces += at(post, [(0, 0, s * 0.45 * long) for s in (-1, 1)])
     return moved(turned(pieces, rotation((0, 1, 0), np.pi / 2)) if middle else pieces, place)
-
-
-def _sleeve(inner: float, outer: float, long: float, sides: int) -> FloatArray:
-    """A tube with a wall, from z = 0 up."""
-    ring = [(inner, 0), (outer, 0), (outer, long), (inner, long), (inner, 0)]
-    return revolve(np.array(ring), sides)

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray
-
 from ...shapes.dice import Dice
 from ...shapes.outlines import ngon, rounded
 from ...shapes.placing import X, Y, moved, pointed, rotation, turned
 from ...shapes.primitives import Pieces, box, boxes, cylinder, prism, revolve, rod, superquadric
 from .assembling import Assembly, disc, press
-from .fittings import Room, standing
+from .fittings import Room, sleeve_of, standing
 from .objects import hinge, slide, spin
 
 
@@ -98,12 +96,14 @@ def mast(dice: Dice, room: Room) -> Assembly:
     kit, radius = Assembly(), room.least * dice.between(0.05, 0.15)
     long = room.least * dice.between(0.4, 1.2)
     sides = dice.pick((4, 6, 14))
-    kit.fix(standing([_tube(radius, long, sides)]), room.base)
+    kit.fix(standing([sleeve_of(0.84 * radius, radius, long, sides)]), room.base)
     parent, out = 0, 0.0
     for _ in range(dice.whole(1, 3)):
         radius, start = 0.8 * radius, out
         out += long * dice.between(0.05, 0.5)
-        pieces = moved(standing([_tube(radius, 0.95 * long, sides)]), (0, -out - 0.02 * long, 0))
+        pieces = moved(
+            standing([sleeve_of(0.84 * radius, radius, 0.95 * long, sides)]), (0, -out - 0.02 * long, 0)
+        )
         motion = slide((0, -1, 0), 0.85 * long - (out - start), start - out)
         parent = kit.add("rod", motion, [(pieces, room.own)], parent)
     end = -out - 0.98 * long
@@ -128,9 +128,3 @@ def push_pad(dice: Dice, room: Room) -> Assembly:
     kit.fix(standing([rim]) if style < 0.7 and dice.chance(0.7) else [], room.base)
     kit.add("button", press(high * dice.between(0.3, 0.7)), [([cap], room.accent)])
     return kit
-
-
-def _tube(radius: float, long: float, sides: int) -> FloatArray:
-    """A pipe from z = 0 up."""
-    ring = [(0.84, 0), (1, 0), (1, 1), (0.84, 1), (0.84, 0)]
-    return revolve(np.array(ring) * [radius, long], sides)

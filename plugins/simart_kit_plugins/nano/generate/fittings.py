@@ -10,12 +10,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from simart_kit.arrays import FloatArray
+
 from ...shapes import legs
 from ...shapes.dice import Dice
 from ...shapes.fronts import frame
 from ...shapes.outlines import SQUARE, rounded
 from ...shapes.placing import X, Y, around, at, moved, pointed, rotation, turned
-from ...shapes.primitives import Pieces, box, boxes, cylinder, prism, rod, torus, tube
+from ...shapes.primitives import Pieces, box, boxes, cylinder, prism, revolve, rod, torus, tube
 from .assembling import Assembly, dial, disc, press, turning
 from .objects import Look, ball, hinge, spin
 from .rigging import ball_knob
@@ -47,6 +49,12 @@ Fitting = Callable[[Dice, Room], Assembly]
 def standing(pieces: Pieces) -> Pieces:
     """What stands on z = 0, standing off the plane y = 0 instead."""
     return turned(pieces, rotation((1, 0, 0), np.pi / 2))
+
+
+def sleeve_of(inner: float, outer: float, long: float, sides: int) -> FloatArray:
+    """A tube with a wall, from z = 0 up."""
+    ring = [(inner, 0), (outer, 0), (outer, long), (inner, long), (inner, 0)]
+    return revolve(np.array(ring), sides)
 
 
 def knob(dice: Dice, room: Room) -> Assembly:
