@@ -102,7 +102,8 @@ def _microphone_arm(dice: Dice) -> list[Body]:
         parent = whole.add("arm", hinge(at, RIGHT, 1.2, -0.8), surface(pieces, metal), parent=parent)
         at, angle = end, angle + dice.between(0.4, 1.2)
     style = dice.unit()
-    head: Pieces = [lying(0.012, 0.034, X, 10)]
+    turns_freely = dice.chance(0.3)
+    head: Pieces = [ball_knob(0.02) if turns_freely else lying(0.012, 0.034, X, 10)]
     if style < 0.5:
         head += [superquadric((0.05, 0.05, 0.12), 0.6, 1.0, 8) - [0, 0, 0.06]]
     elif style < 0.75:
@@ -112,7 +113,7 @@ def _microphone_arm(dice: Dice) -> list[Body]:
         ]
     else:
         head += [torus(0.07, 0.008, 20) - [0, 0.07, 0.01], cylinder(0.068, 0.006, 18) - [0, 0.07, 0.01]]
-    turn = ball(at) if dice.chance(0.3) else hinge(at, RIGHT, 1.2, -1.2)
+    turn = ball(at) if turns_freely else hinge(at, RIGHT, 1.2, -1.2)
     whole.add("head", turn, surface(moved(head, at), looks.plastic(dice)), parent=parent)
     return whole.bodies()
 
@@ -134,7 +135,8 @@ def _globe(dice: Dice) -> list[Body]:
     low = rod((0, 0, 0.3 * radius), middle + [0, 0, -reach], 0.06 * radius, 8)
     parent = 0
     if dice.chance(0.35):
-        whole.dress(0, surface([low], metal))
+        clamp = box(np.array([0.3, 0.24, 0.16]) * radius, middle - [0, 0, reach])
+        whole.dress(0, surface([low, clamp], metal))
         parent = whole.add("meridian", hinge(middle, BACK, 0.9, -0.9), surface(meridian, metal))
     else:
         whole.dress(0, surface([low, *meridian], metal))
