@@ -14,16 +14,18 @@ from simart_kit.triangles import areas, unit_normals
 from .cloud import Cloud, sample_evenly, sample_pieces
 from .generate.objects import GeneratedObject
 from .part_lines import part_lines
+from .plainer import plain
 from .scene import Pieces, pieces_of
 from .superfaces import superfaces
 from .truth import KINDS, PartTruth, majority, right_candidates
-from .varying import fused, placed
+from .varying import fused, joined, placed
 from .visibility import visible
 
 # Points of a cloud, about; pieces of a cloud at most, of solids and of skins.
 POINTS, MOST_PIECES, SUPERFACES = 1536, 160, 192
-# How often a solid object has lost its inside, or has pieces fused and split.
-_HOLLOW, _MIXED = 0.25, 0.4
+# How often an object is made plain, and a solid one has lost its inside, has bodies of one piece each, or
+# pieces fused and split.
+_PLAIN, _HOLLOW, _JOINED, _MIXED = 0.4, 0.25, 0.25, 0.4
 _NOISE = 0.002
 
 
@@ -73,7 +75,7 @@ def example(made: GeneratedObject, generator: np.random.Generator, skin_share: f
     """
     corners = np.concatenate([body.triangles for body in made.bodies]).reshape(-1, 3)
     size = float(np.ptp(corners, axis=0).max())
-    seen = placed(made, generator)
+    seen = placed(plain(made, generator) if generator.random() < _PLAIN else made, generator)
     cloud, label = _cloud(seen, generator, skin_share)
     part = majority(label, cloud.piece, cloud.area, len(made.bodies), cloud.count)
     shown = np.bincount(part, minlength=len(made.bodies)) > 0
@@ -112,6 +114,7 @@ def _cloud(
         owner, _ = superfaces(points, normals, colors, count, generator)
     else:
         owner = np.unique(piece[face], return_inverse=True)[1].reshape(-1)
+        owner = joined(owner, body[face], generator) if generator.random() < _JOINED else owner
         owner = fused(owner, points, generator) if generator.random() < _MIXED else owner
     if len(points) > 2 * POINTS:
         owner, chosen = _thinned(owner, generator)

@@ -48,6 +48,22 @@ def _turn(generator: np.random.Generator) -> FloatArray:
     return np.round(turn, 15)
 
 
+def joined(piece: IntArray, body: IntArray, generator: np.random.Generator) -> IntArray:
+    """(N,) pieces of which those of some bodies are one each, as whoever models for a simulator joins them.
+
+    Args:
+        piece: (N,) of the points, 0.. without gaps.
+        body: (N,) of the points.
+        generator: of the choice.
+    """
+    count = int(piece.max()) + 1
+    chosen = generator.random(int(body.max()) + 1) < generator.random()
+    owner = np.zeros(count, dtype=np.int64)
+    owner[piece] = body
+    one = np.where(chosen[owner], count + owner, np.arange(count))
+    return np.asarray(np.unique(one[piece], return_inverse=True)[1].reshape(-1))
+
+
 def fused(piece: IntArray, points: FloatArray, generator: np.random.Generator) -> IntArray:
     """(N,) pieces of which some neighbours are one, and some large ones are two.
 
