@@ -30,7 +30,7 @@ _WORTH = 0.3
 _CARRIED = 0.5
 # An object of which the sides differ no more is recognised: what it has seen alike it reads alike from all
 # sides, of what is new each side says something else.
-_ALIKE = 0.0006
+_ALIKE = 0.0008
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ from .predicting import Prediction
 
 # Shares of the sureness asked for that are enough in an object that is recognised, and in one that is read
 # much alike from all sides, of which these differ no more than so much.
-_KNOWN, _MUCH, _MUCH_ALIKE = 1 / 4, 1 / 2, 0.004
+_KNOWN, _MUCH, _MUCH_ALIKE = 1 / 4, 1 / 2, 0.003
 
 
 def settled(said: Prediction, least: float, skin: bool) -> Prediction:
