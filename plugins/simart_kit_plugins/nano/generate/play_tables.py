@@ -7,8 +7,8 @@ import numpy as np
 from simart_kit.arrays import FloatArray
 
 from ...shapes.dice import Dice
-from ...shapes.placing import X, moved, pointed, rotation
-from ...shapes.primitives import Pieces, between, box, boxes, cylinder, open_box, rod, superquadric
+from ...shapes.placing import X, Y, moved, pointed, rotation
+from ...shapes.primitives import Pieces, between, box, boxes, cylinder, open_box, revolve, rod, superquadric
 from . import looks
 from .assembling import Assembly, disc, fall, holder, press, pull, shell
 from .category import Category
@@ -110,9 +110,9 @@ def _panel(dice: Dice, kit: Assembly, place: tuple[float, float, float], look: L
         kit.fix(rails if dice.chance(0.4) else [], look)
         kit.add("sliding door", slide((-side, 0, 0), long - own), parts)
     elif kind == "door":
-        kit.add("door", hinge((x + side * own / 2, -gap, 0), (0, 0, side), dice.between(1.5, 2.2)), parts)
+        kit.add("door", hinge((x + side * own / 2, -gap, 0), (0, 0, side), dice.between(1.2, 1.57)), parts)
     else:
-        kit.add("flap", fall(-gap, 0.003, dice.between(1.3, 1.7)), parts)
+        kit.add("flap", fall(-gap - thick, 0.003, dice.between(0.8, 1.1)), parts)
 
 
 def _on_face(dice: Dice, kit: Assembly, spot: FloatArray, room: float, look: Look) -> None:
@@ -121,13 +121,19 @@ def _on_face(dice: Dice, kit: Assembly, spot: FloatArray, room: float, look: Loo
     dark = Look("plastic", (25, 25, 25))
     if kind == "button":
         radius = room * dice.between(0.1, 0.25)
-        kit.fix(moved([disc(1.25 * radius, 0.3 * radius, 18)], spot), dark)
-        cap = moved([disc(radius, 0.8 * radius, 18)], spot)
+        rim = revolve([(1.05, 0), (1.3, 0), (1.3, 1), (1.05, 1), (1.05, 0)], 18) * [
+            radius,
+            radius,
+            0.6 * radius,
+        ]
+        kit.fix(moved([pointed(rim, Y) * [1, -1, 1]], spot), dark)
+        cap = moved([disc(radius, 0.5 * radius, 18) - [0, 0.42 * radius, 0]], spot)
         kit.add("button", press(0.4 * radius), [(cap, look)])
         return
     long = room * dice.between(0.4, 0.9)
     frame = boxes((0.006, 0.006, long), [(s * 0.04 * room, -0.003, 0) for s in (-1, 1)])
-    kit.fix(moved([frame, box((0.07 * room, 0.002, long))], spot), dark)
+    kit.fix(moved([frame] if kind == "slider" else [], spot), dark)
+    kit.fix(moved([box((0.07 * room, 0.002, long))], spot), dark)
     if kind == "slider":
         low = dice.between(-0.4, 0.0) * long
         stem = box((0.05 * room, 0.03, 0.05 * room), (0, -0.015, low))
@@ -137,7 +143,10 @@ def _on_face(dice: Dice, kit: Assembly, spot: FloatArray, room: float, look: Loo
     reach, tilt = room * dice.between(0.25, 0.5), dice.between(0.3, 0.6)
     arm: Pieces = [rod((0, 0, 0), (0, -reach * np.cos(tilt), -reach * np.sin(tilt)), 0.03 * room, 8)]
     arm.append(pointed(cylinder(0.05 * room, 0.07 * room, 12), X))
-    kit.add("lever", hinge(spot, (-1, 0, 0), 2 * tilt), [(moved(arm, spot), look)])
+    pin = spot - [0, 0.07 * room, 0]
+    cheeks = boxes((0.01, 0.12 * room, 0.08 * room), [(s * 0.06 * room, -0.06 * room, 0) for s in (-1, 1)])
+    kit.fix(moved([cheeks], spot), dark)
+    kit.add("lever", hinge(pin, (-1, 0, 0), 2 * tilt), [(moved(arm, pin), look)])
 
 
 def _on_top(dice: Dice, kit: Assembly, spot: FloatArray, room: float, look: Look) -> None:
@@ -150,8 +159,9 @@ def _on_top(dice: Dice, kit: Assembly, spot: FloatArray, room: float, look: Look
         kit.fix([block], looks.plastic(dice))
         return
     rim = dice.between(0.2, 0.6) * radius
-    kit.fix([cylinder(1.3 * radius, rim, 18) + spot + [0, 0, rim / 2]], looks.metal(dice))
-    cap = cylinder(radius, rim, 18) + spot + [0, 0, 1.4 * rim]
+    collar = revolve([(1.05, 0), (1.3, 0), (1.3, 1), (1.05, 1), (1.05, 0)], 18) * [radius, radius, rim]
+    kit.fix([collar + spot], looks.metal(dice))
+    cap = cylinder(radius, rim, 18) + spot + [0, 0, 1.2 * rim]
     kit.add("button", slide((0, 0, -1), 0.6 * rim), [([cap], look)])
 
 
