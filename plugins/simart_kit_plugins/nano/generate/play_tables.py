@@ -7,16 +7,18 @@ import numpy as np
 from simart_kit.arrays import FloatArray
 
 from ...shapes.dice import Dice
-from ...shapes.placing import X, Y, moved, pointed, rotation
-from ...shapes.primitives import Pieces, between, box, boxes, cylinder, open_box, revolve, rod, superquadric
+from ...shapes.placing import X, moved, pointed, rotation
+from ...shapes.primitives import Pieces, between, box, boxes, cylinder, open_box, rod, superquadric
 from . import looks
 from .assembling import Assembly, disc, fall, holder, press, pull, shell
+from .carcass import posts
 from .category import Category
+from .fittings import sleeve_of, standing
 from .objects import Body, Look, hinge, slide
 
 
 def _play_table(dice: Dice) -> list[Body]:
-    """A top on legs or a chest, a part above its back that is upright or leans back, and things to work."""
+    """A top on legs, a part above its back that is upright or leans back, and things to work."""
     kit, look, other = Assembly("table"), looks.wood(dice), looks.wood(dice)
     wide, deep, high = dice.between(0.5, 1.6), dice.between(0.35, 0.8), dice.between(0.25, 0.8)
     top = dice.between(0.02, 0.08)
@@ -43,8 +45,7 @@ def _stand(dice: Dice, kit: Assembly, size: tuple[float, float, float], look: Lo
     wide, deep, high = size
     post = dice.between(0.03, 0.08)
     x, y = wide / 2 - 0.6 * post, deep / 2 - 0.6 * post
-    spots = [(sx * x, sy * y, high / 2) for sx in (-1, 1) for sy in (-1, 1)]
-    kit.fix([boxes((post, post, high), [spot]) for spot in spots], look)
+    kit.fix(posts(wide - 0.2 * post, deep - 0.2 * post, high, post), look)
     apron = high * dice.between(0.15, 0.3)
     kit.fix([box((wide - 2 * post, 0.02, apron), (0, y, high - apron / 2))], look)
     kit.fix([box((0.02, deep - 2 * post, apron), (s * x, 0, high - apron / 2)) for s in (-1, 1)], look)
@@ -59,9 +60,9 @@ def _drawers(dice: Dice, kit: Assembly, size: tuple[float, float, float], coats:
         x, own = (k - (count - 1) / 2) * each, each * dice.between(0.5, 0.95)
         long = deep * dice.between(0.4, 0.8)
         front = box((own, 0.02, tall), (x, -deep / 2, high - tall / 2 - 0.004))
-        size_ = (own * 0.94, long, tall * 0.8)
+        room = (own * 0.94, long, tall * 0.8)
         place = (x, -deep / 2 + long / 2 + 0.01, high - 0.85 * tall)
-        tub = box(size_, (0, 0, size_[2] / 2)) if dice.chance(0.4) else open_box(size_, 0.008)
+        tub = box(room, (0, 0, room[2] / 2)) if dice.chance(0.4) else open_box(room, 0.008)
         grip = holder(dice, own * dice.between(0.2, 0.6))
         pull_at = (x, -deep / 2 - 0.01, high - tall / 2)
         parts = [([front, tub + place], coats[0]), (moved(grip, pull_at), coats[1])]
@@ -121,12 +122,8 @@ def _on_face(dice: Dice, kit: Assembly, spot: FloatArray, room: float, look: Loo
     dark = Look("plastic", (25, 25, 25))
     if kind == "button":
         radius = room * dice.between(0.1, 0.25)
-        rim = revolve([(1.05, 0), (1.3, 0), (1.3, 1), (1.05, 1), (1.05, 0)], 18) * [
-            radius,
-            radius,
-            0.6 * radius,
-        ]
-        kit.fix(moved([pointed(rim, Y) * [1, -1, 1]], spot), dark)
+        collar = sleeve_of(1.05 * radius, 1.3 * radius, 0.6 * radius, 18)
+        kit.fix(moved(standing([collar]), spot), dark)
         cap = moved([disc(radius, 0.5 * radius, 18) - [0, 0.42 * radius, 0]], spot)
         kit.add("button", press(0.4 * radius), [(cap, look)])
         return
@@ -159,8 +156,7 @@ def _on_top(dice: Dice, kit: Assembly, spot: FloatArray, room: float, look: Look
         kit.fix([block], looks.plastic(dice))
         return
     rim = dice.between(0.2, 0.6) * radius
-    collar = revolve([(1.05, 0), (1.3, 0), (1.3, 1), (1.05, 1), (1.05, 0)], 18) * [radius, radius, rim]
-    kit.fix([collar + spot], looks.metal(dice))
+    kit.fix([sleeve_of(1.05 * radius, 1.3 * radius, rim, 18) + spot], looks.metal(dice))
     cap = cylinder(radius, rim, 18) + spot + [0, 0, 1.2 * rim]
     kit.add("button", slide((0, 0, -1), 0.6 * rim), [([cap], look)])
 
