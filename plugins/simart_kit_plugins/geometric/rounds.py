@@ -9,7 +9,7 @@ import numpy as np
 from simart_kit.arrays import FloatArray
 
 from .caps import measure_cap, stacked_on
-from .contact import Contacts
+from .contact import Contacts, smallest_distance
 from .movers import Mover
 from .scene import FACINGS, Box, Scene
 
@@ -18,6 +18,10 @@ _LARGEST_GAP = np.deg2rad(50.0)  # between corners of the rim: an octagon is a c
 _TOGETHER = 4.2  # diameters from one knob to the next at most: those of drawers are farther apart
 _LEVEL = 0.008  # of the object's diagonal, how far out of their plane the middles of knobs are at most
 _EQUAL, _TURNED = 0.015, 0.08  # by how much extents of equal discs vary, and of coarse ones as they turn
+_AXLE, _BESIDE = (
+    0.3,
+    0.05,
+)  # of a wheel's radius: a fork is so near to its axle's ends, and nowhere to its rim
 _CONCENTRIC = 0.05  # of its width, how far a cap's middle is from its collar's at most
 _BUTTON = (0.008, 0.08)  # [m] width of a round button
 _MUSHROOM = 0.12  # [m] the same of one over a hole in the body: for a whole hand
@@ -54,7 +58,7 @@ def is_rod(points: FloatArray, axis: int) -> bool:
 
 
 def wheels(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
-    """Discs with a level axis that stand on the ground, at least two of a size, and all within them."""
+    """Discs with a level axis that stand on the ground, two of a size or one in a fork; with all within."""
     ground = scene.box.lower[2]
     found: list[tuple[int, float]] = []
     for piece, box in enumerate(scene.boxes):
@@ -72,7 +76,30 @@ def wheels(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
             pieces = (piece, *_inside(scene, contacts, piece))
             used.update(pieces)
             movers.append(Mover(pieces, "wheel", 0.7, (f"one of {len(alike)} discs alike on the ground",)))
+        elif len(alike) == 1:
+            pieces = (piece, *_inside(scene, contacts, piece))
+            if _forked(scene, contacts, pieces):
+                reason = "a disc on the ground, held by its middle from both sides and free around it"
+                movers.append(Mover(pieces, "wheel", 0.6, (reason,)))
     return movers
+
+
+def _forked(scene: Scene, contacts: Contacts, wheel: Sequence[int]) -> bool:
+    """Whether what reaches past its rim comes to both ends of a wheel's axle, and to no place on the rim."""
+    box = scene.boxes[wheel[0]]
+    axis, radius = int(box.size[:2].argmin()), float(box.size[2]) / 2
+    beside = [p for p in contacts.touching(wheel[0], _BESIDE * radius) if p not in wheel]
+    triangles = scene.triangles[np.isin(scene.labels, beside)]
+    across = np.delete(triangles - box.center, axis, axis=2)
+    if np.abs(across).max(initial=0.0) < radius:
+        return False  # nothing, or a shaft on which it sits
+    half = np.eye(3)[axis] * box.size[axis] / 2
+    held = [smallest_distance((box.center + end)[None], triangles, radius) for end in (half, -half)]
+    angles = 2 * np.pi * np.arange(_WAYS) / _WAYS
+    around = np.column_stack([np.cos(angles), np.sin(angles)]) @ np.delete(np.eye(3), axis, axis=0)
+    # Halfway through, since a fork's arms pass the rim on their way.
+    free = smallest_distance(box.center + radius * around, triangles, radius)
+    return max(held) < _AXLE * radius and free > _BESIDE * radius
 
 
 def knobs(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
