@@ -198,6 +198,18 @@ DAMAGES = {
     "other categories": (resized("categories", []), "size mismatch for category"),
     "more layers": (resized("layers", 2), "Missing key"),
     "one more": (rewritten(lambda t: t.update(more=torch.zeros(2))), "Unexpected key"),
+    "half the statistics": (
+        rewritten(lambda t: t.update({"statistics.mean": torch.zeros(2, 16)})),
+        "Missing key statistics.whitening",
+    ),
+    "other statistics": (
+        rewritten(
+            lambda t: t.update(
+                {"statistics.mean": torch.zeros(2, 16), "statistics.whitening": torch.zeros(2, 8, 8)}
+            )
+        ),
+        "size mismatch for statistics.whitening",
+    ),
     "one less": (rewritten(lambda t: t.pop("moves.bias")), "Missing key.*moves.bias"),
     "not a number": (spoiled(torch.nan), "not all numbers of moves.weight are finite"),
     "infinite": (spoiled(-torch.inf), "not all numbers of moves.weight are finite"),

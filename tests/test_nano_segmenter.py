@@ -53,6 +53,7 @@ class Oracle(ArrayNetwork):
             label,
             np.broadcast_to(np.array([0.0, SURE]), (sides, 2)),
             np.full(sides, 0.5),
+            np.zeros((sides, most, 16), np.float32),
         )
 
     def parts(self, tokens, owner, share, numbers, real):
@@ -73,6 +74,7 @@ class Told:
 
     network: ArrayNetwork
     known: Knowledge
+    statistics: None = None
 
 
 def test_groups_are_the_blocks_of_a_matrix_of_chances_the_surest_first():

@@ -18,9 +18,9 @@ def part(piece, certainty, kind="prismatic"):
     )
 
 
-def said(*parts, discord=0.002):
+def said(*parts, discord=0.002, novelty=3.0):
     moves = np.full(3, 0.9)
-    return Prediction(parts, (), np.zeros(3, int), moves, "desk", discord, {}, (1.0, 1.0))
+    return Prediction(parts, (), np.zeros(3, int), moves, "desk", discord, novelty, {}, (1.0, 1.0))
 
 
 def kept(prediction, skin=False):
@@ -51,6 +51,14 @@ def test_a_quarter_is_enough_in_what_it_recognises_known_by_name_or_not(skin):
     known = said(part(DRAWER, 0.21), part(LID, 0.19), discord=0.0)
     assert kept(known, skin) == [DRAWER]
     assert kept(replace(known, category=""), skin) == [DRAWER]
+
+
+def test_a_quarter_is_enough_in_what_is_made_as_what_was_trained_on_whatever_each_side_says():
+    usual = said(part(DRAWER, 0.21), part(LID, 0.19), discord=0.05, novelty=0.9)
+    assert not usual.recognised
+    assert kept(usual) == [DRAWER]
+    assert kept(replace(usual, novelty=1.5)) == []
+    assert kept(usual, skin=True) == []
 
 
 def test_what_hangs_on_a_part_in_doubt_hangs_on_the_body():

@@ -36,10 +36,11 @@ class ArrayNetwork:
     def read(self, rows: Rows) -> PiecesRead[Float32Array]:
         """Read objects."""
         tokens = self._perceptron("enter", np.concatenate([self._pooled(rows), rows.numbers], axis=2))
-        biases = self._biases(rows)
+        biases, middle = self._biases(rows), tokens
         for number in range(self.config.layers):
             first = number * self.config.heads
             tokens = self._layer(f"layers.{number}", tokens, biases[:, first : first + self.config.heads])
+            middle = tokens if number + 1 == self.config.layers // 2 else middle
         tokens = self._norm("norm", tokens)
         alike = self._linear("left", tokens) @ self._linear("right", tokens).transpose(0, 2, 1)
         together = alike / np.float32(tokens.shape[2] ** 0.5) + biases[:, -1]
@@ -53,6 +54,7 @@ class ArrayNetwork:
             self._linear("label", tokens),
             self._linear("category", whole),
             self._linear("size", whole)[..., 0],
+            middle,
         )
 
     def parts(

@@ -82,8 +82,10 @@ class NanoNetwork(nn.Module):
         biases = self.biases(pair_numbers(batch.numbers, batch.gap))
         hidden = (~batch.there)[:, None, None, :]
         *of_layers, near = biases.split([self.config.heads] * self.config.layers + [1], dim=1)
-        for layer, bias in zip(self.layers, of_layers, strict=True):
+        middle = tokens
+        for number, (layer, bias) in enumerate(zip(self.layers, of_layers, strict=True), start=1):
             tokens = layer(tokens, bias, hidden)
+            middle = tokens if number == self.config.layers // 2 else middle
         tokens = self.norm(tokens)
         alike = self.left(tokens) @ self.right(tokens).transpose(1, 2) / tokens.shape[2] ** 0.5
         together = alike + near[:, 0]
@@ -98,6 +100,7 @@ class NanoNetwork(nn.Module):
             self.label(tokens),
             self.category(whole),
             self.size(whole)[..., 0],
+            middle,
         )
 
     def _pooled(self, batch: Batch) -> Tensor:

@@ -16,14 +16,11 @@ from .choices import Choices
 from .cloud import Cloud
 from .evidence import COUNT
 from .grouping import Group, groups, piece_parts
+from .novelty import TokenStatistics, tokens_of
 from .part_lines import part_lines
 from .siblings import nearest_carriers, shared_certainty
-from .voting import Said, SaidParts, say, say_parts
+from .voting import VOTES, Said, SaidParts, say, say_parts
 
-# From how many sides an object is looked at.
-VOTES = 4
-# The time that the network takes grows with the square of the pieces.
-_MANY = 256
 # Less sure groups of pieces are not looked at.
 _WORTH = 0.3
 # Share of the surface that a part which lies loose may have.
@@ -76,6 +73,8 @@ class Prediction:
         moves: (S,) chance of each piece to be of a moving part.
         category: what it is; empty where no known one fits.
         discord: how far what is said of it from each side is apart (`voting.discord`).
+        novelty: how unlike it is to what was trained on (`TokenStatistics.novelty`); infinite where the model
+            has no statistics.
         categories: chance of each known category.
         size: longest side [m], and the factor by which opinions differ about it, at least 1.
     """
@@ -86,6 +85,7 @@ class Prediction:
     moves: FloatArray
     category: str
     discord: float
+    novelty: float
     categories: Mapping[str, float]
     size: tuple[float, float]
 
@@ -95,7 +95,9 @@ class Prediction:
         return self.discord <= _ALIKE
 
 
-def predict(network: ArrayNetwork, cloud: Cloud, votes: int = VOTES) -> Prediction:
+def predict(
+    network: ArrayNetwork, cloud: Cloud, votes: int = VOTES, statistics: TokenStatistics | None = None
+) -> Prediction:
     """Read a cloud.
 
     Args:
@@ -103,8 +105,9 @@ def predict(network: ArrayNetwork, cloud: Cloud, votes: int = VOTES) -> Predicti
         cloud: of the object.
         votes: from how many sides it is seen, 1..8; one of very many pieces is seen from one alone.
             What is seen from one alone is not recognised.
+        statistics: of what the network was trained on, where they are known.
     """
-    said = say(network, cloud, _votes(cloud, votes))
+    said = say(network, cloud, votes)
     area = _areas(cloud)
     found = [g for g in groups(said.moves, said.together, area, _WORTH) if len(g.pieces) < cloud.count]
     parts = tuple(plausible(part, area) for part in _parts(network, said, cloud, found))
@@ -113,7 +116,8 @@ def predict(network: ArrayNetwork, cloud: Cloud, votes: int = VOTES) -> Predicti
     name = names[best - 1] if best else ""
     chances = dict(zip(names, said.category[1:].tolist(), strict=True))
     piece_part = piece_parts([part.pieces for part in parts], cloud.count)
-    return Prediction(parts, (), piece_part, said.moves, name, said.discord, chances, said.size)
+    novelty = float("inf") if statistics is None else statistics.novelty(tokens_of(said))
+    return Prediction(parts, (), piece_part, said.moves, name, said.discord, novelty, chances, said.size)
 
 
 def plausible(part: PredictedPart, area: FloatArray) -> PredictedPart:
@@ -126,7 +130,7 @@ def predict_groups(
     network: ArrayNetwork, cloud: Cloud, found: Sequence[Group], votes: int = VOTES
 ) -> tuple[PredictedPart, ...]:
     """The joints of given groups of pieces, in their order; none holds all pieces."""
-    return _parts(network, say(network, cloud, _votes(cloud, votes)), cloud, found)
+    return _parts(network, say(network, cloud, votes), cloud, found)
 
 
 def _parts(
@@ -156,10 +160,6 @@ def _parts(
         replace(part, parent=above, certainty=float(sure))
         for part, above, sure in zip(each, carriers, shared, strict=True)
     )
-
-
-def _votes(cloud: Cloud, wished: int) -> int:
-    return wished if cloud.count <= _MANY else 1
 
 
 def _areas(cloud: Cloud) -> FloatArray:

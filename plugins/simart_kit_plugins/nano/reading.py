@@ -49,6 +49,7 @@ class PiecesRead(Generic[Values]):
         label: (B, S, L) logits of what its part is called.
         category: (B, C) logits of what the object is.
         size: (B,) natural logarithm of its longest side [m].
+        middle: (B, S, D) tokens half way through the layers.
     """
 
     tokens: Values
@@ -58,6 +59,7 @@ class PiecesRead(Generic[Values]):
     label: Values
     category: Values
     size: Values
+    middle: Values
 
 
 @dataclass(frozen=True, eq=False)

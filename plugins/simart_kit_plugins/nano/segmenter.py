@@ -45,7 +45,8 @@ class Nano(Segmenter):
             ge=0,
             le=1,
             description="Parts less sure than this stay with the body; a quarter of it is enough in an "
-            "object that is recognised, half in one that is read much alike from all sides.",
+            "object that is recognised or made as those that were trained on, half in one that is read much "
+            "alike from all sides.",
         )
         votes: int = Field(
             default=4,
@@ -86,7 +87,7 @@ class Nano(Segmenter):
         folder = Path(self.options.model) if self.options.model else shipped_folder()
         model = read_model(folder)
         seen = mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(self.seed))
-        said = predict(model.network, seen.cloud, self.options.votes)
+        said = predict(model.network, seen.cloud, self.options.votes, model.statistics)
         material = partial(model.known.material, said.category)
         still = sum(said.categories[name] for name in model.known.still)
         if spec is not None and spec.moves:
@@ -187,10 +188,22 @@ def _notes(said: Prediction, seen: MeshCloud, still: float, parts: int) -> tuple
         Note(
             "segment", "info", f"{seen.cloud.count} {kind}; {what}, about {size:.2g} m (/ or x {factor:.2f})"
         ),
+        Note("segment", "info", _trust(said)),
         Note("segment", "info", f"{parts} moving parts"),
         *(Note("segment", "info", _doubt(part)) for part in said.doubtful),
         *([Note("segment", "warning", _SKIN)] if seen.skin else []),
     )
+
+
+def _trust(said: Prediction) -> str:
+    from .trusting import familiar
+
+    measured = f"discord {said.discord:.2g}, novelty {said.novelty:.2f}"
+    if said.recognised:
+        return f"the network recognises it ({measured}), and is believed before geometry"
+    if familiar(said):
+        return f"it is made as what the network was trained on ({measured}), which adds to geometry"
+    return f"it is unlike what the network was trained on ({measured}), which has to be surer of a part"
 
 
 def _doubt(part: PredictedPart) -> str:

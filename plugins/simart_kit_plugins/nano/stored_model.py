@@ -19,7 +19,8 @@ from ..tables import Table, told
 from .array_network import ArrayNetwork
 from .config import NanoConfig
 from .knowledge import Knowledge
-from .weight_shapes import weight_shapes
+from .novelty import TokenStatistics
+from .weight_shapes import statistic_shapes, weight_shapes
 
 CONFIG_FILE, WEIGHTS_FILE = "config.json", "model.safetensors"
 _AGAIN = "give a folder that `train nano` wrote, or copy it again"
@@ -42,11 +43,13 @@ class StoredModel:
         config: sizes of the network.
         known: what goes with it.
         weights: float32, of the shapes that the config says.
+        statistics: of what it was trained on; None where none were kept.
     """
 
     config: NanoConfig
     known: Knowledge
     weights: Mapping[str, Float32Array]
+    statistics: TokenStatistics | None
 
     @property
     def network(self) -> ArrayNetwork:
@@ -67,13 +70,17 @@ def read_model(folder: Path) -> StoredModel:
     """
     file = _config(folder / CONFIG_FILE)
     weights = _weights(folder / WEIGHTS_FILE)
-    wrong = _difference({name: array.shape for name, array in weights.items()}, weight_shapes(file.config))
+    wanted = weight_shapes(file.config)
+    of_statistics = statistic_shapes(file.config)
+    wanted |= of_statistics if weights.keys() & of_statistics.keys() else {}
+    wrong = _difference({name: array.shape for name, array in weights.items()}, wanted)
     if wrong:
         raise BadInputError(
             f"{folder / WEIGHTS_FILE} is not of the network in {CONFIG_FILE} beside it: they are "
             f"of different ones ({shorten(wrong, 160)}): copy both files from one folder"
         )
-    return StoredModel(file.config, file.knowledge, weights)
+    numbers = [weights.pop(name) for name in of_statistics if name in weights]
+    return StoredModel(file.config, file.knowledge, weights, TokenStatistics(*numbers) if numbers else None)
 
 
 def _difference(shapes: Mapping[str, tuple[int, ...]], wanted: Mapping[str, tuple[int, ...]]) -> str:

@@ -1,4 +1,4 @@
-"""How sure the network has to be of a part: less so where it reads the object alike from all sides."""
+"""How sure the network has to be of a part: less so in an object like those that it was trained on."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from dataclasses import replace
 from .grouping import piece_parts
 from .predicting import Prediction
 
-# Shares of the sureness asked for that are enough in an object that is recognised, and in one that is read
-# much alike from all sides, of which these differ no more than so much.
-_KNOWN, _MUCH, _MUCH_ALIKE = 1 / 4, 1 / 2, 0.003
+# Shares of the sureness asked for that are enough in an object that is recognised, or is no newer than this,
+# and in one that is read much alike from all sides, of which these differ no more than so much.
+_KNOWN, _FAMILIAR = 1 / 4, 1.0
+_MUCH, _MUCH_ALIKE = 1 / 2, 0.003
 
 
 def settled(said: Prediction, least: float, skin: bool) -> Prediction:
@@ -22,10 +23,15 @@ def settled(said: Prediction, least: float, skin: bool) -> Prediction:
         least: how sure a part has to be, of moving as one and of how, in any object.
         skin: whether it is one closed skin; of these the network knows too little to be trusted with less.
     """
-    if said.recognised:
+    if said.recognised or (familiar(said) and not skin):
         return _sure(said, _KNOWN * least)
     much_alike = said.discord <= _MUCH_ALIKE and not skin
     return _sure(said, _MUCH * least if much_alike else least)
+
+
+def familiar(said: Prediction) -> bool:
+    """Whether an object is made as those are that the network was trained on, whatever it is."""
+    return said.novelty <= _FAMILIAR
 
 
 def _sure(said: Prediction, least: float) -> Prediction:

@@ -17,6 +17,10 @@ from .scene import pieces_of
 from .store import stored
 from .turning import VIEWS, turned, turned_evidence
 
+# From how many sides an object is looked at.
+VOTES = 4
+# The time that the network takes grows with the square of the pieces.
+_MANY = 256
 # Less than this the sides always differ, by rounding and by chance.
 _LEAST = 1e-4
 
@@ -33,6 +37,7 @@ class Said:
         size: longest side [m], and the factor by which the sides differ about it, at least 1.
         discord: how far the sides are from saying the same, see `discord`.
         tokens: (V, S', D) of each side, for `say_parts`; padded as in training.
+        middle: (V, S', D) of each side, half way through the layers.
     """
 
     moves: FloatArray
@@ -42,6 +47,7 @@ class Said:
     size: tuple[float, float]
     discord: float
     tokens: Float32Array
+    middle: Float32Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,8 +67,9 @@ class SaidParts:
     carrier: FloatArray
 
 
-def say(network: ArrayNetwork, cloud: Cloud, votes: int) -> Said:
-    """Read a cloud from the first `votes` of the eight `VIEWS`."""
+def say(network: ArrayNetwork, cloud: Cloud, votes: int = VOTES) -> Said:
+    """Read a cloud from the first `votes` of the eight `VIEWS`; one of very many pieces from one alone."""
+    votes = votes if cloud.count <= _MANY else 1
     nothing = Example(
         cloud, pieces_of(cloud), np.zeros(cloud.count, dtype=np.int64), np.array([True]), (), "", 1.0
     )
@@ -78,6 +85,7 @@ def say(network: ArrayNetwork, cloud: Cloud, votes: int) -> Said:
         (float(np.exp(read.size.mean())), float(np.exp(read.size.std()))),
         discord(moves, category),
         read.tokens,
+        read.middle,
     )
 
 

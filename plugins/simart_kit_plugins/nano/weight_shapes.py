@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .config import NanoConfig
 from .evidence import COUNT
+from .novelty import LAYERS
 from .reading import POINT_NUMBERS
 from .scene import PAIR_NUMBERS, PIECE_NUMBERS
 from .truth import KINDS
@@ -30,6 +31,12 @@ def weight_shapes(config: NanoConfig) -> dict[str, tuple[int, ...]]:
     for name, outer in (heads | {"asking": choice}).items():
         shapes |= _linear(name, width, outer)
     return shapes | _linear("choice", choice, 3)
+
+
+def statistic_shapes(config: NanoConfig) -> dict[str, tuple[int, ...]]:
+    """The shape of each field of `TokenStatistics`, in their order, by the name that it is stored by."""
+    width = config.channels
+    return {"statistics.mean": (LAYERS, width), "statistics.whitening": (LAYERS, width, width)}
 
 
 def _layer(name: str, config: NanoConfig) -> dict[str, tuple[int, ...]]:

@@ -11,16 +11,24 @@ from simart_kit.errors import OutputError
 
 from .knowledge import Knowledge
 from .network import NanoNetwork
+from .novelty import TokenStatistics
 from .stored_model import CONFIG_FILE, WEIGHTS_FILE, ConfigFile, read_model
+from .weight_shapes import statistic_shapes
 
 
-def save_network(network: NanoNetwork, folder: Path, known: Knowledge | None = None) -> None:
+def save_network(
+    network: NanoNetwork,
+    folder: Path,
+    known: Knowledge | None = None,
+    statistics: TokenStatistics | None = None,
+) -> None:
     """Write a network; the same weights give the same bytes.
 
     Args:
         network: any device.
         folder: made where there is none; its files are replaced.
         known: what goes with it.
+        statistics: of what it was trained on.
 
     Raises:
         OutputError: the folder cannot be written.
@@ -28,6 +36,10 @@ def save_network(network: NanoNetwork, folder: Path, known: Knowledge | None = N
     from safetensors.torch import save_file
 
     tensors = {name: t.detach().cpu().half().contiguous() for name, t in network.state_dict().items()}
+    if statistics is not None:
+        numbers = (statistics.mean, statistics.whitening)
+        names = statistic_shapes(network.config)
+        tensors |= {n: torch.from_numpy(array).half() for n, array in zip(names, numbers, strict=True)}
     known = known or Knowledge()
     file = ConfigFile(schema=1, model="simart-nano", config=network.config, knowledge=known)
     partial = folder / f"{WEIGHTS_FILE}.partial"

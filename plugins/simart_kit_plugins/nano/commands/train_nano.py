@@ -137,6 +137,7 @@ def _performed(
     from ..training import pool
     from ..training.loop import train, with_names
     from ..training.scores import score
+    from ..training.usual import usual_tokens
     from ..weights import save_network
 
     files = {use: pool.shards(plan, run / "objects", use) for use in (pool.TRAIN, pool.SEEN, pool.UNSEEN)}
@@ -149,7 +150,8 @@ def _performed(
         examples = pool.read(files[pool.TRAIN])
         plan = with_names(plan, examples)
         network = _so_far(plan, run) if evaluate else train(plan, examples, run, _Printer(plan, quiet))
-        save_network(network, run / "model", counted(plan.network.categories, plan.seed))
+        known = counted(plan.network.categories, plan.seed)
+        save_network(network, run / "model", known, usual_tokens(network, plan))
     judged = {"categories trained on": pool.SEEN, "unseen categories": pool.UNSEEN}
     return {name: score(network, pool.read(files[use])) for name, use in judged.items() if files[use]}
 
