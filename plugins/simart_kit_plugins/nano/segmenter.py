@@ -45,8 +45,8 @@ class Nano(Segmenter):
             ge=0,
             le=1,
             description="Parts less sure than this stay with the body; a quarter of it is enough in an "
-            "object that is recognised or made as those that were trained on, half in one that is read much "
-            "alike from all sides.",
+            "object that is recognised, half in one that is read much alike from all sides or made as those "
+            "that were trained on.",
         )
         votes: int = Field(
             default=4,

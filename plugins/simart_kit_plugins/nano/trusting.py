@@ -7,10 +7,9 @@ from dataclasses import replace
 from .grouping import piece_parts
 from .predicting import Prediction
 
-# Shares of the sureness asked for that are enough in an object that is recognised, or is no newer than this,
-# and in one that is read much alike from all sides, of which these differ no more than so much.
-_KNOWN, _FAMILIAR = 1 / 4, 1.0
-_MUCH, _MUCH_ALIKE = 1 / 2, 0.003
+# Shares of the sureness asked for that are enough in an object that is recognised, and in one that is read
+# much alike from all sides, which differ no more than so much, or that is no newer than so much.
+_KNOWN, _MUCH, _MUCH_ALIKE, _FAMILIAR = 1 / 4, 1 / 2, 0.003, 1.1
 
 
 def settled(said: Prediction, least: float, skin: bool) -> Prediction:
@@ -23,10 +22,10 @@ def settled(said: Prediction, least: float, skin: bool) -> Prediction:
         least: how sure a part has to be, of moving as one and of how, in any object.
         skin: whether it is one closed skin; of these the network knows too little to be trusted with less.
     """
-    if said.recognised or (familiar(said) and not skin):
+    if said.recognised:
         return _sure(said, _KNOWN * least)
-    much_alike = said.discord <= _MUCH_ALIKE and not skin
-    return _sure(said, _MUCH * least if much_alike else least)
+    alike = said.discord <= _MUCH_ALIKE or familiar(said)
+    return _sure(said, _MUCH * least if alike and not skin else least)
 
 
 def familiar(said: Prediction) -> bool:
