@@ -60,3 +60,19 @@ def test_a_wheel_in_a_fork_turns_about_its_axle(quarter: int) -> None:
 )
 def test_other_discs_stay(more: tuple[Box, ...], z: float) -> None:
     assert "wheel" not in found(barrow(*more, z=z)).kinds
+
+
+def test_the_spokes_go_with_the_tyre_and_the_fork_holds_the_hub() -> None:
+    tyre = trimesh.creation.annulus(0.16, 0.2, 0.08)
+    tyre.apply_transform(rotation_matrix(np.pi / 2, (0, 1, 0)))
+    tyre.apply_translation((0, -0.6, 0.2))
+    rim = Mesh(np.array(tyre.vertices), np.array(tyre.faces, dtype=np.int32))
+    disc = trimesh.creation.cylinder(0.158, 0.02, sections=48)
+    disc.apply_transform(rotation_matrix(np.pi / 2, (0, 1, 0)))
+    disc.apply_translation((0, -0.6, 0.2))
+    spokes = Mesh(np.array(disc.vertices), np.array(disc.faces, dtype=np.int32))
+    near = tuple(box((x, x + 0.03), (-0.62, -0.28), (0.19, 0.21)) for x in (-0.045, 0.015))
+    mesh = joined(joined(boxes_mesh([*TRAY, *near, *STAYS]), rim), spokes)
+    result = found(mesh)
+    assert result.kinds == {"wheel": "continuous"}
+    assert len(result.faces("wheel")) == len(rim.faces) + len(spokes.faces)

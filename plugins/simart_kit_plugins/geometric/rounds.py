@@ -9,7 +9,7 @@ import numpy as np
 from simart_kit.arrays import FloatArray
 
 from .caps import measure_cap, stacked_on
-from .contact import Contacts, smallest_distance
+from .contact import Contacts, hanging_on, smallest_distance
 from .movers import Mover
 from .scene import FACINGS, Box, Scene
 
@@ -76,8 +76,9 @@ def wheels(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
             pieces = (piece, *_inside(scene, contacts, piece))
             used.update(pieces)
             movers.append(Mover(pieces, "wheel", 0.7, (f"one of {len(alike)} discs alike on the ground",)))
-        elif len(alike) == 1:
+        elif len(alike) == 1 and piece not in used:
             pieces = (piece, *_inside(scene, contacts, piece))
+            used.update(pieces)
             if _forked(scene, contacts, pieces):
                 reason = "a disc on the ground, held by its middle from both sides and free around it"
                 movers.append(Mover(pieces, "wheel", 0.6, (reason,)))
@@ -88,8 +89,8 @@ def _forked(scene: Scene, contacts: Contacts, wheel: Sequence[int]) -> bool:
     """Whether what reaches past its rim comes to both ends of a wheel's axle, and to no place on the rim."""
     box = scene.boxes[wheel[0]]
     axis, radius = int(box.size[:2].argmin()), float(box.size[2]) / 2
-    beside = [p for p in contacts.touching(wheel[0], _BESIDE * radius) if p not in wheel]
-    triangles = scene.triangles[np.isin(scene.labels, beside)]
+    beside = {p for own in wheel for p in contacts.touching(own, _BESIDE * radius)} - set(wheel)
+    triangles = scene.triangles[np.isin(scene.labels, list(beside))]
     across = np.delete(triangles - box.center, axis, axis=2)
     if np.abs(across).max(initial=0.0) < radius:
         return False  # nothing, or a shaft on which it sits
@@ -221,11 +222,12 @@ def _is_collar(scene: Scene, other: int, piece: int) -> bool:
 
 
 def _inside(scene: Scene, contacts: Contacts, wheel: int) -> list[int]:
-    """Pieces within a wheel's own box: hub, spokes, bolts."""
+    """Pieces within a wheel's own box that hang together with it: hub, spokes, bolts."""
     outer = scene.boxes[wheel]
-    return [
+    able = [
         i
-        for i in contacts.touching(wheel, 0.01)
-        if (scene.boxes[i].lower >= outer.lower - 0.01).all()
-        and (scene.boxes[i].upper <= outer.upper + 0.01).all()
+        for i, box in enumerate(scene.boxes)
+        if (box.lower >= outer.lower - 0.01).all() and (box.upper <= outer.upper + 0.01).all()
     ]
+    held = hanging_on({wheel}, able, lambda one, other: contacts.within(one, other, 0.01))
+    return sorted(held - {wheel})
