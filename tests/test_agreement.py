@@ -140,10 +140,8 @@ def painted(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, sk.Result]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("simart_kit.render.write_preview", lambda asset, path: path)
         sets = ['modify=[{use="scale"}]']  # physics has no colours
-        # The network does not know things in all colours of the rainbow.
-        glb, out = folder / "painted.glb", folder / "out"
-        result = sk.convert(glb, recipe="geometric", out=out, record=False, sets=sets)
-    return glb, result
+        result = sk.convert(folder / "painted.glb", out=folder / "out", record=False, sets=sets)
+    return folder / "painted.glb", result
 
 
 @pytest.mark.parametrize("form", FORMATS)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from simart_kit_plugins.nano.predicting import PredictedPart, Prediction
-from simart_kit_plugins.nano.trusting import settled
+from simart_kit_plugins.nano.trusting import enough, settled
 
 # Pieces.
 BODY, DRAWER, LID = range(3)
@@ -24,7 +24,7 @@ def said(*parts, discord=0.002, novelty=3.0):
 
 
 def kept(prediction, skin=False):
-    found = settled(prediction, 0.8, skin)
+    found = settled(prediction, enough(prediction, 0.8, skin))
     assert len(found.parts) + len(found.doubtful) == len(prediction.parts)
     for number, one in enumerate(found.parts, start=1):
         assert (found.piece_part[one.pieces] == number).all()
@@ -54,14 +54,15 @@ def test_a_quarter_is_enough_in_what_it_recognises_known_by_name_or_not(skin):
 
 
 def test_half_is_enough_in_what_is_made_as_what_was_trained_on_whatever_each_side_says():
-    usual = said(part(DRAWER, 0.41), part(LID, 0.39), discord=0.05, novelty=1.0)
+    usual = said(part(DRAWER, 0.41), part(LID, 0.39), discord=0.015, novelty=1.0)
     assert not usual.recognised
     assert kept(usual) == [DRAWER]
     assert kept(replace(usual, novelty=1.5)) == []
+    assert kept(replace(usual, discord=0.05)) == []  # the sides are quite at odds
     assert kept(usual, skin=True) == []
 
 
 def test_what_hangs_on_a_part_in_doubt_hangs_on_the_body():
     on_it = replace(part(LID, 0.7), parent=1)
-    (found,) = settled(said(part(DRAWER, 0.3), on_it), 0.8, skin=False).parts
+    (found,) = settled(said(part(DRAWER, 0.3), on_it), 0.4).parts
     assert (int(found.pieces[0]), found.parent) == (LID, 0)

@@ -18,10 +18,8 @@ _LARGEST_GAP = np.deg2rad(50.0)  # between corners of the rim: an octagon is a c
 _TOGETHER = 4.2  # diameters from one knob to the next at most: those of drawers are farther apart
 _LEVEL = 0.008  # of the object's diagonal, how far out of their plane the middles of knobs are at most
 _EQUAL, _TURNED = 0.015, 0.08  # by how much extents of equal discs vary, and of coarse ones as they turn
-_AXLE, _BESIDE = (
-    0.3,
-    0.05,
-)  # of a wheel's radius: a fork is so near to its axle's ends, and nowhere to its rim
+_AXLE = 0.3  # of a wheel's radius: a fork is so near to both ends of its axle
+_BESIDE = 0.05  # of its radius: what is nearer touches a wheel; nothing is to its rim
 _CONCENTRIC = 0.05  # of its width, how far a cap's middle is from its collar's at most
 _BUTTON = (0.008, 0.08)  # [m] width of a round button
 _MUSHROOM = 0.12  # [m] the same of one over a hole in the body: for a whole hand

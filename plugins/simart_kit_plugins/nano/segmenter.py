@@ -82,7 +82,7 @@ class Nano(Segmenter):
         from .proposals import with_body
         from .showing import evidence
         from .stored_model import read_model, shipped_folder
-        from .trusting import settled
+        from .trusting import enough, settled
 
         folder = Path(self.options.model) if self.options.model else shipped_folder()
         model = read_model(folder)
@@ -93,7 +93,8 @@ class Nano(Segmenter):
         if spec is not None and spec.moves:
             still = 0.0
         moves = still < _STILL
-        said = settled(said, self.options.least, seen.skin)
+        bar = enough(said, self.options.least, seen.skin)
+        said = settled(said, bar)
         geometry = self._geometry(mesh) if moves and not (seen.skin and spec is not None) else []
         fronts = with_body(mesh, geometry) if seen.skin else []
         if fronts or not moves:
@@ -104,7 +105,7 @@ class Nano(Segmenter):
             found = self._of_pieces(mesh, said, seen, geometry, material, spec)
         assert found.face_segment is not None
         shown = evidence(found.mesh_of(mesh), found.face_segment, said, seen)
-        return replace(found, notes=_notes(said, seen, still, len(found.parts) - 1), evidence=shown)
+        return replace(found, notes=_notes(said, seen, still, bar, len(found.parts) - 1), evidence=shown)
 
     def _of_pieces(
         self,
@@ -177,7 +178,7 @@ def _of_patches(
     return replace(found, face_segment=pieces, mesh=None if done.mesh is mesh else done.mesh)
 
 
-def _notes(said: Prediction, seen: MeshCloud, still: float, parts: int) -> tuple[Note, ...]:
+def _notes(said: Prediction, seen: MeshCloud, still: float, bar: float, parts: int) -> tuple[Note, ...]:
     kind = "patches of one skin" if seen.skin else "pieces that lie apart"
     known = said.category and f"taken for a {said.category} ({said.categories[said.category]:.2f})"
     what = known or "of no known kind"
@@ -188,22 +189,17 @@ def _notes(said: Prediction, seen: MeshCloud, still: float, parts: int) -> tuple
         Note(
             "segment", "info", f"{seen.cloud.count} {kind}; {what}, about {size:.2g} m (/ or x {factor:.2f})"
         ),
-        Note("segment", "info", _trust(said)),
+        Note("segment", "info", _trust(said, bar)),
         Note("segment", "info", f"{parts} moving parts"),
         *(Note("segment", "info", _doubt(part)) for part in said.doubtful),
         *([Note("segment", "warning", _SKIN)] if seen.skin else []),
     )
 
 
-def _trust(said: Prediction) -> str:
-    from .trusting import familiar
-
+def _trust(said: Prediction, bar: float) -> str:
+    knows = "recognises it" if said.recognised else "does not recognise it"
     measured = f"discord {said.discord:.2g}, novelty {said.novelty:.2f}"
-    if said.recognised:
-        return f"the network recognises it ({measured}), and is believed before geometry"
-    if familiar(said):
-        return f"it is made as what the network was trained on ({measured}), which adds to geometry"
-    return f"it is unlike what the network was trained on ({measured}), which has to be surer of a part"
+    return f"the network {knows} ({measured}): {bar:.2f} sure is enough for its parts"
 
 
 def _doubt(part: PredictedPart) -> str:
