@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -12,6 +13,12 @@ import simart_kit as sk
 
 from .once import made_once
 from .real_objects import ANY_SPEED, source
+
+
+def pytest_configure() -> None:
+    """Let Ctrl-C reach the processes of tests: what a script puts in the background ignores it."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")
