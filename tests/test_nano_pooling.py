@@ -55,6 +55,25 @@ def test_a_joint_gives_way_to_one_that_is_much_surer():
         assert found.joint.axis == kept.joint.axis
 
 
+@pytest.mark.parametrize(("confidence", "kind"), [(0.8, "revolute"), (0.6, "prismatic")])
+def test_what_surely_turns_does_not_slide_however_like_a_drawer_it_looks(confidence, kind):
+    drawer = proposal([1, 2], "drawer")
+    drawer = replace(drawer, joint=replace(drawer.joint, confidence=0.95))
+    hinge = Joint("j", "revolute", "body", "part", axis=(1.0, 0.0, 0.0), limits=Limits(0.0, 0.5))
+    tipping = replace(drawer, joint=replace(hinge, confidence=confidence))
+    assert pooled(MESH, [drawer], [tipping])[0].joint.kind == kind
+
+
+def test_what_surely_spins_is_no_door():
+    door = proposal([1, 2], "door", axis=(0.0, 0.0, 1.0))
+    door = replace(door, joint=replace(door.joint, kind="revolute", confidence=0.95))
+    wheel = replace(
+        door, joint=Joint("j", "continuous", "body", "part", axis=(1.0, 0.0, 0.0), confidence=0.9)
+    )
+    (found,) = pooled(MESH, [door], [wheel])
+    assert (found.joint.kind, found.joint.axis) == ("continuous", (1.0, 0.0, 0.0))
+
+
 def test_what_either_finds_alone_is_kept_and_no_face_is_claimed_twice():
     lid = proposal([3], "lid", axis=(0.0, 0.0, 1.0))
     across = proposal([0, 3], "wrong")
@@ -81,6 +100,21 @@ def test_drawers_that_are_taken_for_one_are_several():
     assert [p.guess.label for p in found] == ["lower", "upper"]
     # One within another, such as a knob on a drawer, does not make it two.
     assert [p.guess.label for p in pooled(MESH, [lump], [proposal([1])])] == ["lump"]
+
+
+def test_three_drawers_that_are_taken_for_one_with_their_carcass_are_several():
+    rows = [((0, 0, z), (1, 1, z + 0.5)) for z in (0, 1, 2)]
+    mesh = boxes_mesh([((2, 0, 0), (3, 1, 9)), *rows, ((0, 1.1, 0), (1, 2.1, 2))])
+    piece, areas = np.repeat(np.arange(5), 12), mesh.face_areas
+
+    def of(*pieces):
+        return replace(proposal([1]), faces=np.isin(piece, pieces))
+
+    chest, drawers = of(1, 2, 3, 4), [of(k) for k in (1, 2, 3)]
+    assert max(areas[d.faces].sum() for d in drawers) < 0.2 * areas[chest.faces].sum()
+    found = pooled(mesh, [chest], drawers)
+    assert [p.faces.tolist() for p in found] == [d.faces.tolist() for d in drawers]
+    assert len(pooled(mesh, [chest], drawers[:2])) == 1  # two are less than half of it
 
 
 def test_who_knows_the_object_is_told_of_nothing_else_and_of_no_other_joint():

@@ -5,7 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from simart_kit_plugins.nano.predicting import PredictedPart, Prediction
-from simart_kit_plugins.nano.trusting import enough, settled
+from simart_kit_plugins.nano.proposals import Proposal
+from simart_kit_plugins.nano.trusting import enough, heeded, settled
+
+from simart_kit import Joint, Limits, PartGuess
 
 # Pieces.
 BODY, DRAWER, LID = range(3)
@@ -66,3 +69,18 @@ def test_what_hangs_on_a_part_in_doubt_hangs_on_the_body():
     on_it = replace(part(LID, 0.7), parent=1)
     (found,) = settled(said(part(DRAWER, 0.3), on_it), 0.4).parts
     assert (int(found.pieces[0]), found.parent) == (LID, 0)
+
+
+def test_geometry_has_no_say_in_what_surely_stands_still():
+    piece, areas = np.array([BODY, DRAWER, LID]), np.ones(3)
+    joint = Joint("j", "prismatic", "body", "part", axis=(0.0, -1.0, 0.0), limits=Limits(0.0, 0.5))
+    drawer, lid = (
+        Proposal(piece == k, PartGuess("part", label="part"), joint, parent)
+        for k, parent in ((DRAWER, None), (LID, 0))
+    )
+    unsure = replace(said(), moves=np.array([0.0, 0.01, 0.3]))
+    (left,) = heeded(unsure, [drawer, lid], piece, areas)
+    assert left.faces.tolist() == lid.faces.tolist()
+    assert left.parent is None  # what carried it is gone
+    # Who says something else from each side is not asked.
+    assert len(heeded(replace(unsure, discord=0.05), [drawer, lid], piece, areas)) == 2

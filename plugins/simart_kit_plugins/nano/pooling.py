@@ -19,11 +19,12 @@ if TYPE_CHECKING:
 # Two proposals are of one part from this overlap on; one that loses more than this share is dropped.
 _SAME, _LOST = 0.5, 0.3
 # Of drawers lumped together each has this share of the lump at least, and this share of it lies there.
-_SHARE, _WITHIN = 0.2, 0.75
+_SHARE, _WITHIN = 0.1, 0.75
 # Joints of one kind whose axes are closer than this are not compared [cosine].
 _ALIKE = np.cos(np.deg2rad(15.0))
-# How much surer of its joint the second has to be.
-_SURER = 0.25
+# How much surer of its joint the second has to be; and how sure that a part turns, which the first has
+# slide or turn otherwise: drawers and bins that tip, or doors and wheels, look the same to rules.
+_SURER, _TURNS = 0.25, 0.7
 # A joint that can go less than this share of its way is stuck.
 _FREE, _STEPS = 0.25, 8
 
@@ -50,6 +51,7 @@ def pooled(
     if known and first:
         lumps = [proposal for k, proposal in enumerate(first) if k not in single]
         inside = [any(_lies_in(areas, other, lump) for lump in lumps) for other in second]
+        first = [_exact(mesh, proposal, second) for proposal in first]
         second = only(second, np.flatnonzero(inside).tolist())
     kept = [first[k] for k in single]
     place = {("first", k): row for row, k in enumerate(single)}
@@ -96,7 +98,9 @@ def _lies_in(areas: FloatArray, one: Proposal, other: Proposal) -> bool:
 
 def _better(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
     """The first proposal, with the other's joint where that is much surer, or its own is stuck alone."""
-    if other.joint.confidence > one.joint.confidence + _SURER:
+    surer = other.joint.confidence > one.joint.confidence + _SURER
+    turns = other.joint.kind != one.joint.kind and other.joint.turns and other.joint.confidence >= _TURNS
+    if surer or turns:
         return replace(one, joint=other.joint)
     alike = one.joint.kind == other.joint.kind and np.dot(one.joint.axis, other.joint.axis) > _ALIKE
     if alike or one.joint.limits is None:
@@ -104,6 +108,15 @@ def _better(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
     sweep = _sweep(mesh, one.faces, ~one.faces)
     if _stuck(one.joint, sweep) and not _stuck(other.joint, sweep):
         return replace(one, joint=other.joint)
+    return one
+
+
+def _exact(mesh: Mesh, one: Proposal, others: Sequence[Proposal]) -> Proposal:
+    """The first proposal, with the joint of the other that has the same part move much alike."""
+    for other in others:
+        alike = one.joint.kind == other.joint.kind and abs(np.dot(one.joint.axis, other.joint.axis)) > _ALIKE
+        if alike and overlap(mesh, one.faces, other.faces) >= _SAME:
+            return replace(one, joint=other.joint)
     return one
 
 

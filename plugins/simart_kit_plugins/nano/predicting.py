@@ -25,9 +25,9 @@ from .voting import VOTES, Said, SaidParts, say, say_parts
 _WORTH = 0.3
 # Share of the surface that a part which lies loose may have.
 _CARRIED = 0.5
-# An object of which the sides differ no more is recognised: what it has seen alike it reads alike from all
-# sides, of what is new each side says something else.
-_ALIKE = 0.0008
+# An object of which the sides differ no more than by the first is recognised, and by the second if it is no
+# newer than that: what it has seen alike it reads alike from all sides, else each side says something else.
+_ALIKE, MUCH_ALIKE, NO_NEWER = 0.0008, 0.003, 1.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +92,8 @@ class Prediction:
     @property
     def recognised(self) -> bool:
         """Whether it is read alike from all sides, as what was trained on is, of whatever kind."""
-        return self.discord <= _ALIKE
+        alike = MUCH_ALIKE if self.novelty <= NO_NEWER else _ALIKE
+        return self.discord <= alike
 
 
 def predict(

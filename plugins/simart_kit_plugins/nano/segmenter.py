@@ -122,7 +122,10 @@ class Nano(Segmenter):
         from .proposals import of_network, with_body
         from .rotors import with_rotors
         from .travel import with_travel
+        from .trusting import heeded
 
+        if spec is None:
+            geometry = heeded(said, geometry, seen.face_piece, mesh.face_areas)
         proposals = with_travel(mesh, of_network(said, said.piece_part[seen.face_piece], seen))
         if self.options.pool:
             proposals = with_rotors(mesh, proposals, geometry)

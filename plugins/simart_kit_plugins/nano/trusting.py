@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
+from simart_kit.arrays import FloatArray, IntArray
+
 from .grouping import piece_parts
-from .predicting import Prediction
+from .predicting import MUCH_ALIKE, NO_NEWER, Prediction
+from .proposals import Proposal, only
 
 # Shares of the sureness asked for that are enough in an object that is recognised, and in a familiar one.
 _KNOWN, _HALF = 1 / 4, 1 / 2
-# Familiar is what is read much alike from all sides, which differ no more than so much; and what is no newer
-# than so much, unless they are quite at odds.
-_MUCH_ALIKE, _NO_NEWER, _AT_ODDS = 0.003, 1.1, 0.02
+# Familiar is what is read much alike from all sides, and what is not new unless these differ by more than so.
+_AT_ODDS = 0.02
+# What is less likely than this to move is sure to stand still, in what is read much alike from all sides.
+_STILL = 0.02
 
 
 def enough(said: Prediction, least: float, skin: bool) -> float:
@@ -24,7 +29,7 @@ def enough(said: Prediction, least: float, skin: bool) -> float:
     """
     if said.recognised:
         return _KNOWN * least
-    familiar = said.discord <= (_AT_ODDS if said.novelty <= _NO_NEWER else _MUCH_ALIKE)
+    familiar = said.discord <= (_AT_ODDS if said.novelty <= NO_NEWER else MUCH_ALIKE)
     return _HALF * least if familiar and not skin else least
 
 
@@ -36,3 +41,23 @@ def settled(said: Prediction, least: float) -> Prediction:
     doubtful = tuple(part for part in said.parts if part.certainty < least)
     piece_part = piece_parts([part.pieces for part in parts], len(said.moves))
     return replace(said, parts=parts, doubtful=doubtful, piece_part=piece_part)
+
+
+def heeded(
+    said: Prediction, geometry: Sequence[Proposal], piece: IntArray, areas: FloatArray
+) -> list[Proposal]:
+    """What geometry proposes, without what the network is sure stands still.
+
+    Args:
+        said: of the object; how likely each piece moves counts by area.
+        geometry: proposals.
+        piece: (F,) of each face of the mesh.
+        areas: (F,) of each face.
+    """
+    if said.discord > MUCH_ALIKE:
+        return list(geometry)
+    moving = said.moves[piece] * areas
+    return only(
+        geometry,
+        [k for k, p in enumerate(geometry) if moving[p.faces].sum() >= _STILL * areas[p.faces].sum()],
+    )
