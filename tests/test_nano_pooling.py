@@ -126,6 +126,18 @@ def test_who_knows_the_object_is_told_of_nothing_else_and_of_no_other_joint():
     assert len(pooled(MESH, [own], others)) == 2
 
 
+def test_who_knows_the_object_takes_the_exact_line_of_what_the_other_moves_alike():
+    hinge = Joint("j", "revolute", "body", "part", axis=(0.0, 0.0, 1.0), limits=Limits(0.0, 1.5))
+    own, other = (
+        replace(proposal([1, 2], "door"), joint=replace(hinge, origin=(x, -0.05, 0.0), confidence=c))
+        for x, c in ((0.15, 0.9), (0.1, 0.5))
+    )
+    (found,) = pooled(MESH, [own], [other], known=True)
+    assert found.joint == other.joint
+    sideways = replace(other, joint=replace(other.joint, axis=(1.0, 0.0, 0.0)))
+    assert pooled(MESH, [own], [sideways], known=True)[0].joint == own.joint
+
+
 def test_who_knows_the_object_and_finds_nothing_hears_the_other():
     (found,) = pooled(MESH, [], [proposal([3], "lid", axis=(0.0, 0.0, 1.0))], known=True)
     assert found.guess.label == "lid"

@@ -56,6 +56,13 @@ def test_a_quarter_is_enough_in_what_it_recognises_known_by_name_or_not(skin):
     assert kept(replace(known, category=""), skin) == [DRAWER]
 
 
+def test_what_is_not_new_is_recognised_by_less():
+    much_alike = said(part(DRAWER, 0.21), discord=0.002, novelty=1.0)
+    assert kept(much_alike) == [DRAWER]
+    assert kept(replace(much_alike, novelty=1.5)) == []
+    assert kept(replace(much_alike, discord=0.005)) == []
+
+
 def test_half_is_enough_in_what_is_made_as_what_was_trained_on_whatever_each_side_says():
     usual = said(part(DRAWER, 0.41), part(LID, 0.39), discord=0.015, novelty=1.0)
     assert not usual.recognised
