@@ -62,6 +62,9 @@ def test_what_surely_turns_does_not_slide_however_like_a_drawer_it_looks(confide
     hinge = Joint("j", "revolute", "body", "part", axis=(1.0, 0.0, 0.0), limits=Limits(0.0, 0.5))
     tipping = replace(drawer, joint=replace(hinge, confidence=confidence))
     assert pooled(MESH, [drawer], [tipping])[0].joint.kind == kind
+    # On rails that were looked for it slides.
+    sliding = replace(drawer, guess=PartGuess("door", label="sliding_door"))
+    assert pooled(MESH, [sliding], [tipping])[0].joint.kind == "prismatic"
 
 
 def test_what_surely_spins_is_no_door():

@@ -1,4 +1,4 @@
-"""Stored examples made different each time: seen from another side, in other colours, two side by side."""
+"""Stored examples made different each time: from another side, in other colours, lessened, in pairs."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 from simart_kit.arrays import FloatArray
 
 from .evidence import EXTENTS
+from .lessening import lessened
 from .scene import AREA, COLOR, HALF, MIDDLE, REACH, SPREAD, area_number, area_share
 from .store import Stored
 from .truth import KINDS
@@ -18,13 +19,14 @@ from .turning import turned
 _PRISMATIC = KINDS.index("prismatic")
 # How often a batch is of pairs of objects, of how many pieces these have at most, and how often one is grey.
 _PAIRED, _MOST, _GREY = 0.25, 80, 0.2
+_LESSENED = 0.3  # of the objects
 
 
 def varied(examples: Sequence[Stored], generator: np.random.Generator) -> list[Stored]:
-    """The examples of a step; small objects sometimes have another one beside them."""
+    """The examples of a step; some have less on them, and small ones sometimes another one beside them."""
+    some = [filling(lessened(e, generator)) if generator.random() < _LESSENED else e for e in examples]
     seen = [
-        recolored(turned(e, int(generator.integers(4)), bool(generator.integers(2))), generator)
-        for e in examples
+        recolored(turned(e, int(generator.integers(4)), bool(generator.integers(2))), generator) for e in some
     ]
     most = max(len(e.own) for e in examples)
     if len(seen) < 2 or most > _MOST or generator.random() >= _PAIRED:
@@ -67,6 +69,14 @@ def beside(one: Stored, other: Stored, generator: np.random.Generator) -> Stored
     first = _moved(one, scale, -middle * scale, 1 / total)
     second = _moved(other, size * scale, (shift - middle) * scale, size**2 / total)
     return _joined(first, second)
+
+
+def filling(e: Stored) -> Stored:
+    """The example in the middle of a space whose longest side it fills, as a whole surface."""
+    low, high = _bounds(e)
+    scale = 1 / float((high - low).max())
+    whole = float(area_share(e.own[:, AREA].astype(np.float64)).sum())
+    return _moved(e, scale, -(low + high) / 2 * scale, 1 / whole)
 
 
 def _bounds(e: Stored) -> tuple[FloatArray, FloatArray]:

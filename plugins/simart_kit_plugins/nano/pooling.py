@@ -99,8 +99,7 @@ def _lies_in(areas: FloatArray, one: Proposal, other: Proposal) -> bool:
 def _better(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
     """The first proposal, with the other's joint where that is much surer, or its own is stuck alone."""
     surer = other.joint.confidence > one.joint.confidence + _SURER
-    turns = other.joint.kind != one.joint.kind and other.joint.turns and other.joint.confidence >= _TURNS
-    if surer or turns:
+    if surer or _turns(one, other):
         return replace(one, joint=other.joint)
     alike = one.joint.kind == other.joint.kind and np.dot(one.joint.axis, other.joint.axis) > _ALIKE
     if alike or one.joint.limits is None:
@@ -109,6 +108,16 @@ def _better(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
     if _stuck(one.joint, sweep) and not _stuck(other.joint, sweep):
         return replace(one, joint=other.joint)
     return one
+
+
+def _turns(one: Proposal, other: Proposal) -> bool:
+    """Whether the second is rather sure that something turns which the first has turn otherwise, or slide.
+
+    What slides on rails that the first has looked for, as a sliding door, is none such; a drawer is.
+    """
+    if one.joint.kind == "prismatic" and one.guess.label != "drawer":
+        return False
+    return other.joint.turns and other.joint.kind != one.joint.kind and other.joint.confidence >= _TURNS
 
 
 def _exact(mesh: Mesh, one: Proposal, others: Sequence[Proposal]) -> Proposal:

@@ -27,7 +27,7 @@ _WORTH = 0.3
 _CARRIED = 0.5
 # An object of which the sides differ no more than by the first is recognised, and by the second if it is no
 # newer than that: what it has seen alike it reads alike from all sides, else each side says something else.
-_ALIKE, MUCH_ALIKE, NO_NEWER = 0.0008, 0.003, 1.1
+_ALIKE, MUCH_ALIKE, _NO_NEWER = 0.001, 0.003, 1.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +92,7 @@ class Prediction:
     @property
     def recognised(self) -> bool:
         """Whether it is read alike from all sides, as what was trained on is, of whatever kind."""
-        alike = MUCH_ALIKE if self.novelty <= NO_NEWER else _ALIKE
+        alike = MUCH_ALIKE if self.novelty <= _NO_NEWER else _ALIKE
         return self.discord <= alike
 
 

@@ -8,13 +8,13 @@ from dataclasses import replace
 from simart_kit.arrays import FloatArray, IntArray
 
 from .grouping import piece_parts
-from .predicting import MUCH_ALIKE, NO_NEWER, Prediction
+from .predicting import MUCH_ALIKE, Prediction
 from .proposals import Proposal, only
 
 # Shares of the sureness asked for that are enough in an object that is recognised, and in a familiar one.
 _KNOWN, _HALF = 1 / 4, 1 / 2
-# Familiar is what is read much alike from all sides, and what is not new unless these differ by more than so.
-_AT_ODDS = 0.02
+# Familiar is what is read much alike from all sides, or is no newer than so if these are not quite at odds.
+_NO_NEWER, _AT_ODDS = 1.15, 0.02
 # What is less likely than this to move is sure to stand still, in what is read much alike from all sides.
 _STILL = 0.02
 
@@ -29,7 +29,7 @@ def enough(said: Prediction, least: float, skin: bool) -> float:
     """
     if said.recognised:
         return _KNOWN * least
-    familiar = said.discord <= (_AT_ODDS if said.novelty <= NO_NEWER else MUCH_ALIKE)
+    familiar = said.discord <= (_AT_ODDS if said.novelty <= _NO_NEWER else MUCH_ALIKE)
     return _HALF * least if familiar and not skin else least
 
 
