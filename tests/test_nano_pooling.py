@@ -201,12 +201,19 @@ def test_votes_from_all_eight_sides_do_not_depend_on_the_side(view):
 
 def test_limits_seen_in_a_mirror_are_turned_back():
     class Blind(ArrayNetwork):
-        """Says of every candidate that it turns from -0.1 to 0.5 pi, or slides so far, whatever it sees."""
+        """Says that all goes 2 rad or 0.4 sides, a quarter of it back, and more surely from each next side.
+
+        Onward is the sense of the axis, whatever it sees.
+        """
+
+        sides = 0
 
         def parts(self, tokens, owner, share, numbers, real):
             read = super().parts(tokens, owner, share, numbers, real)
-            travel = np.broadcast_to(np.float32([-0.1, 0.5]), read.travel.shape)
-            return type(read)(read.kind, read.right, travel, read.embedding)
+            self.sides += 1
+            sense = np.full_like(read.sense, 3.0**self.sides)
+            reach = np.log(np.float32([[2.0, 0.4]]))
+            return replace(read, sense=sense, near=np.zeros(1, np.float32), reach=reach)
 
     network = Blind(CONFIG, arrays(NanoNetwork(CONFIG, 0)))
     tokens = say(network, cloud_seen_by(0, False), 2).tokens
@@ -215,6 +222,21 @@ def test_limits_seen_in_a_mirror_are_turned_back():
     said = say_parts(
         network, tokens, np.full((1, 6), 1 / 6, dtype=np.float32), numbers, np.ones((1, 2), bool)
     )
-    # The second side is a mirror: there a turn goes from -0.5 to 0.1 pi.
-    assert np.allclose(said.travel[0, 0], [-0.1, 0.5])
-    assert np.allclose(said.travel[0, 1], [-0.3 * np.pi, 0.3 * np.pi])
+    # The second side is a mirror: there a turn goes the other way round.
+    assert np.allclose(said.travel[0, 0], [-0.1, 0.3])
+    assert np.allclose(said.travel[0, 1], [-1.5, 0.5])
+
+
+@pytest.mark.parametrize(("near", "back"), [(-9.0, 0.0), (-1.5, 0.0), (-1.3, 0.107), (9.0, 0.5)])
+def test_next_to_no_travel_on_the_shorter_side_is_none(near, back):
+    class Told(ArrayNetwork):
+        def parts(self, tokens, owner, share, numbers, real):
+            read = super().parts(tokens, owner, share, numbers, real)
+            return replace(read, near=np.float32([near]), reach=np.zeros((1, 2), np.float32))
+
+    network = Told(CONFIG, arrays(NanoNetwork(CONFIG, 0)))
+    tokens = say(network, cloud_seen_by(0, False), 1).tokens
+    share, numbers = np.full((1, 6), 1 / 6, dtype=np.float32), np.zeros((1, 1, COUNT))
+    said = say_parts(network, tokens, share, numbers, np.ones((1, 1), bool))
+    assert np.abs(said.travel[0, 0]).min() == pytest.approx(back, abs=1e-3)
+    assert np.abs(said.travel[0, 0]).sum() == pytest.approx(1)

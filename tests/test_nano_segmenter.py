@@ -59,10 +59,11 @@ class Oracle(ArrayNetwork):
     def parts(self, tokens, owner, share, numbers, real):
         kind = np.zeros((len(owner), len(KINDS)))
         kind[:, KINDS.index("prismatic" if self.slides else "revolute")] = SURE
-        travel = np.broadcast_to(np.array([-0.5, 0.0]), (*real.shape, 2))
+        sense, near = np.full(real.shape, -SURE), np.full(len(owner), -SURE)
+        reach = np.broadcast_to(np.log([0.5 * np.pi, 0.5]), (len(owner), 2))
         first = np.where(real, 0.0, -np.inf)
         first[:, 0] = 1.0
-        return PartsRead(kind, first, travel, np.zeros((len(owner), 16)))
+        return PartsRead(kind, first, sense, near, reach, np.zeros((len(owner), 16)))
 
     def carriers(self, child, parent):
         return np.full((len(child), len(parent)), -SURE)

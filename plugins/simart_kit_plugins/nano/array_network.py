@@ -13,7 +13,9 @@ from simart_kit.arrays import BoolArray, Float32Array, IntArray
 
 from .array_pairs import pair_numbers
 from .config import NanoConfig
+from .evidence import WAY
 from .reading import PartsRead, PiecesRead, Rows
+from .ways import WAY_NUMBERS
 
 # What a hidden piece is worth to attention, as in `NanoNetwork`.
 _HIDDEN = np.float32(-1e4)
@@ -70,10 +72,14 @@ class ArrayNetwork:
         mean = (share[:, None] @ own)[:, 0]
         highest = np.where((share > 0)[..., None], own, _HIDDEN).max(axis=1)
         embedding = self._perceptron("part", np.concatenate([mean, highest, own.mean(axis=1)], axis=1))
-        asked = self._perceptron("candidate", numbers) + self._linear("asking", embedding)[:, None]
-        said = self._linear("choice", _gelu(asked))
-        right = np.where(real, said[..., 0], np.float32(-np.inf))
-        return PartsRead(self._linear("part_kind", embedding), right, said[..., 1:], embedding)
+        asked = self._linear("asking", embedding)[:, None]
+        candidate = self._perceptron("candidate", numbers[..., : WAY.start]) + asked
+        right = np.where(real, self._linear("choice", _gelu(candidate))[..., 0], np.float32(-np.inf))
+        counts, near, reach = np.split(
+            self._perceptron("opening", embedding), [WAY_NUMBERS, WAY_NUMBERS + 1], axis=1
+        )
+        sense = (numbers[..., WAY] @ counts[..., None])[..., 0]
+        return PartsRead(self._linear("part_kind", embedding), right, sense, near[:, 0], reach, embedding)
 
     def carriers(self, child: Float32Array, parent: Float32Array) -> Float32Array:
         """(P, Q) logits of each of (Q, D) embeddings carrying each of (P, D)."""

@@ -67,7 +67,7 @@ class Choices:
         lower, upper = self.travel[row].tolist()
         axis = self.found.axis[row]
         if -lower > upper:  # positive opens
-            axis, lower, upper = -axis, -upper, -lower
+            axis, lower, upper = -axis, 0.0 - upper, 0.0 - lower
         limited = kind in ("revolute", "prismatic")
         sure = float(self.kinds[KINDS.index(kind)]) * (together if kind not in ("ball", "free") else 1.0)
         return Motion(

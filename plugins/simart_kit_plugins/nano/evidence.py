@@ -8,6 +8,7 @@ from simart_kit.arrays import BoolArray, FloatArray
 
 from .candidates import SLIDE, SOURCES, Candidates
 from .line_places import PLACE_NUMBERS, SIDE, Details, from_lines, line_places
+from .ways import WAY_NUMBERS, ways
 
 # Points of a part that a sweep moves, and cells along an edge of the grid of what is in the way.
 _SWEPT, _CELLS = 64, 40
@@ -17,12 +18,13 @@ _SHIFTS = np.array([-0.8, -0.2, 0.2, 0.8])
 # Points of the part this near to the rest touch it.
 TOUCHING = 0.02
 _PLACES = len(SOURCES) + 2 + 3 + 2 + 3 + 3 + 5
-COUNT = _PLACES + PLACE_NUMBERS + 4
+_MOVES = _PLACES + PLACE_NUMBERS
+COUNT = _MOVES + 4 + WAY_NUMBERS
 # Columns of evidence that tell lengths along x, y and z, places along them, extents in sides of the object,
-# and moves both ways.
+# moves both ways, and where the sense of the axis leads: all that come before this are weighed together.
 ALONG_AXES = (slice(8, 11), slice(13, 16), slice(16, 19))
 PLACE = slice(_PLACES + SIDE.start, _PLACES + SIDE.stop)
-EXTENTS, BOTH_WAYS = slice(11, 13), slice(COUNT - 4, COUNT)
+EXTENTS, BOTH_WAYS, WAY = slice(11, 13), slice(_MOVES, _MOVES + 4), slice(_MOVES + 4, COUNT)
 
 
 def evidence(
@@ -32,7 +34,7 @@ def evidence(
 
     Args:
         found: candidates of the part.
-        part: (N, 3) points of the part; the object's longest side is 1.
+        part: (N, 3) points of the part; the object is in the middle, its longest side is 1.
         rest: (M, 3) points of all else; may be none.
         gap: (N,) from each point of the part to the nearest of the rest, at most 1.
         details: the small pieces of both.
@@ -66,6 +68,7 @@ def evidence(
         ),
         line_places(found, part, rest, details),
         sweep(found, part, rest),
+        ways(found, part, rest, details.grip),
     ]
     return np.concatenate(numbers, axis=1).astype(np.float32)
 

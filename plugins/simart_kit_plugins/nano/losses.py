@@ -13,6 +13,8 @@ from .network import NanoNetwork, PartReading, Reading
 from .truth import KINDS
 
 _PRISMATIC = KINDS.index("prismatic")
+# Less travel than this is none [rad | sides of the object].
+_SHORTEST = 1e-3
 _WEIGHTS = {
     "together": 1.0,
     "moves": 0.5,
@@ -22,7 +24,9 @@ _WEIGHTS = {
     "size": 0.1,
     "part_kind": 0.5,
     "right": 0.5,
-    "travel": 0.5,
+    "sense": 0.2,
+    "near": 0.5,
+    "reach": 0.2,
     "carrier": 0.2,
 }
 
@@ -77,23 +81,37 @@ def _together(logits: Tensor, part: Tensor) -> Tensor:
 def _of_parts(model: NanoNetwork, read: PartReading, targets: Targets) -> dict[str, Tensor]:
     nothing = read.embedding.sum() * 0
     if not len(targets.owner):
-        return dict.fromkeys(("part_kind", "right", "travel", "carrier"), nothing)
+        return dict.fromkeys(("part_kind", "right", "sense", "near", "reach", "carrier"), nothing)
     right = targets.right != 0
     asked = right.any(1)
     chance = read.right.float().log_softmax(1)
     good = torch.logsumexp(chance.masked_fill(~right, -torch.inf), dim=1)
-    slide = (targets.part_kind == _PRISMATIC)[:, None, None]
-    limits = torch.where(slide, targets.travel[:, None], targets.travel[:, None] / torch.pi)
-    flipped = -limits.flip(2)
-    wanted = torch.where((targets.right < 0)[..., None], flipped, limits)
-    limited = right & (targets.travel.abs().sum(1) > 0)[:, None]
     return {
         "part_kind": cross_entropy(read.kind, targets.part_kind),
         "right": -good[asked].mean() if asked.any() else nothing,
-        "travel": smooth_l1_loss(read.travel[limited], wanted.expand_as(read.travel)[limited], beta=0.1)
-        if limited.any()
-        else nothing,
+        **_of_travel(read, targets, nothing),
         "carrier": _carrier(model, read.embedding, targets),
+    }
+
+
+def _of_travel(read: PartReading, targets: Targets, nothing: Tensor) -> dict[str, Tensor]:
+    """In which sense each right candidate opens, how much of the way is on the shorter side, and how far."""
+    lower, upper = targets.travel.unbind(1)
+    whole = upper - lower
+    limited = whole > _SHORTEST
+    if not limited.any():
+        return dict.fromkeys(("sense", "near", "reach"), nothing)
+    share = (torch.minimum(-lower, upper).clamp(min=0) / whole.clamp(min=_SHORTEST))[limited]
+    opens = targets.right[limited] * torch.sign(lower + upper)[limited, None]
+    # What goes as far both ways has no side to open to.
+    counts = (opens != 0) * (1 - 2 * share)[:, None]
+    cost = binary_cross_entropy_with_logits(read.sense[limited], (opens > 0).float(), reduction="none")
+    slides = (targets.part_kind[limited] == _PRISMATIC)[:, None]
+    reach = read.reach[limited].gather(1, slides.long())[:, 0]
+    return {
+        "sense": (cost * counts).sum() / counts.sum().clamp(min=1),
+        "near": (read.near[limited].sigmoid() / 2 - share).abs().mean(),
+        "reach": (reach - whole[limited].log()).abs().mean(),
     }
 
 

@@ -10,11 +10,12 @@ from torch import Tensor, nn
 from torch.nn.functional import gelu
 
 from .config import NanoConfig
-from .evidence import COUNT
+from .evidence import WAY
 from .pairs import pair_numbers
 from .reading import POINT_NUMBERS, PartsRead, PiecesRead
 from .scene import PAIR_NUMBERS, PIECE_NUMBERS
 from .truth import KINDS
+from .ways import WAY_NUMBERS
 
 _SMALL = 0.02
 Reading: TypeAlias = PiecesRead[Tensor]
@@ -70,9 +71,11 @@ class NanoNetwork(nn.Module):
             self.part = _perceptron(3 * width, config.hidden, width)
             self.part_kind = nn.Linear(width, len(KINDS))
             # Parts have a hundred candidates: what is done for each has to be little.
-            self.candidate = _perceptron(COUNT, config.choice_channels, config.choice_channels)
+            self.candidate = _perceptron(WAY.start, config.choice_channels, config.choice_channels)
             self.asking = nn.Linear(width, config.choice_channels)
-            self.choice = nn.Linear(config.choice_channels, 3)
+            self.choice = nn.Linear(config.choice_channels, 1)
+            # What each way counts for the sense in which it opens, and how far it goes: see `PartsRead`.
+            self.opening = _perceptron(width, config.choice_channels, WAY_NUMBERS + 3)
             self.carrier = _perceptron(2 * width, config.hidden // 2, 1)
 
     def forward(self, batch: Batch) -> Reading:
@@ -137,9 +140,11 @@ class NanoNetwork(nn.Module):
             told = torch.arange(len(embedding), device=embedding.device) % _BLIND > 0
             seen = embedding * told[:, None]
         with _plain(numbers):
-            said = self.choice(gelu(self.candidate(numbers) + self.asking(seen.float())[:, None]))
-        right = said[..., 0].masked_fill(~real, -torch.inf)
-        return PartReading(self.part_kind(embedding), right, said[..., 1:], embedding)
+            candidate = self.candidate(numbers[..., : WAY.start]) + self.asking(seen.float())[:, None]
+            right = self.choice(gelu(candidate))[..., 0].masked_fill(~real, -torch.inf)
+            counts, near, reach = self.opening(embedding.float()).split([WAY_NUMBERS, 1, 2], dim=1)
+            sense = (numbers[..., WAY] @ counts[..., None])[..., 0]
+        return PartReading(self.part_kind(embedding), right, sense, near[:, 0], reach, embedding)
 
     def carriers(self, child: Tensor, parent: Tensor) -> Tensor:
         """(P, Q) logits of each of (Q, D) embeddings carrying each of (P, D)."""

@@ -69,13 +69,17 @@ class PartsRead(Generic[Values]):
     Attributes:
         kind: (P, 5) logits, by `KINDS`.
         right: (P, C) logits of the candidates; -inf where there is none.
-        travel: (P, C, 2) limits about each candidate: turns [pi rad], slides [sides of the object].
+        sense: (P, C) logits of opening in the sense of each candidate's axis.
+        near: (P,) logits; half of their chance is the share of the travel that is on the shorter side of 0.
+        reach: (P, 2) natural logarithms of the travel: of a turn [rad], of a slide [sides of the object].
         embedding: (P, D).
     """
 
     kind: Values
     right: Values
-    travel: Values
+    sense: Values
+    near: Values
+    reach: Values
     embedding: Values
 
 

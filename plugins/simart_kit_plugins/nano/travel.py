@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from simart_kit import Joint, Mesh
     from simart_kit.arrays import FloatArray
 
-_LEAST = {"revolute": np.deg2rad(3.0), "prismatic": 0.05}  # [rad], and of the part's extent along the axis
+_LEAST = {"revolute": np.deg2rad(1.0), "prismatic": 0.05}  # [rad], and of the part's extent along the axis
 _OPEN, _PRESSED = np.pi / 2, 0.5  # [rad], and of that extent
 _BUTTONS = ("button", "key")
 _SMALL = 0.1  # of the object's diagonal: smaller things are pressed in, larger ones pulled out

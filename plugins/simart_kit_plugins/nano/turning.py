@@ -9,7 +9,7 @@ import numpy as np
 from simart_kit.arrays import Float32Array, FloatArray
 
 from .candidates import SLIDE
-from .evidence import ALONG_AXES, BOTH_WAYS, PLACE
+from .evidence import ALONG_AXES, BOTH_WAYS, PLACE, WAY
 from .scene import FACING, HALF, MIDDLE, SPREAD
 from .store import Stored
 
@@ -55,6 +55,7 @@ def turned_evidence(numbers: FloatArray, quarters: int, mirrored: bool) -> Float
     if mirrored:
         turns = numbers[:, SLIDE] == 0
         result[turns, BOTH_WAYS] = numbers[turns, BOTH_WAYS][:, ::-1]
+        result[turns, WAY] *= -1
     return result
 
 

@@ -21,6 +21,8 @@ from .turning import VIEWS, turned, turned_evidence
 VOTES = 4
 # The time that the network takes grows with the square of the pieces.
 _MANY = 256
+# A smaller share of the travel than this on the shorter side is none.
+_ONE_SIDED = 0.1
 # Less than this the sides always differ, by rounding and by chance.
 _LEAST = 1e-4
 
@@ -36,6 +38,7 @@ class Said:
         category: (C,) chances of what the object is.
         size: longest side [m], and the factor by which the sides differ about it, at least 1.
         discord: how far the sides are from saying the same, see `discord`.
+        gap: (S, S) least distance of two pieces [sides of the object]; what is far apart is at a fixed one.
         tokens: (V, S', D) of each side, for `say_parts`; padded as in training.
         middle: (V, S', D) of each side, half way through the layers.
     """
@@ -46,6 +49,7 @@ class Said:
     category: FloatArray
     size: tuple[float, float]
     discord: float
+    gap: Float32Array
     tokens: Float32Array
     middle: Float32Array
 
@@ -84,6 +88,7 @@ def say(network: ArrayNetwork, cloud: Cloud, votes: int = VOTES) -> Said:
         _mean(category),
         (float(np.exp(read.size.mean())), float(np.exp(read.size.std()))),
         discord(moves, category),
+        here.gap,
         read.tokens,
         read.middle,
     )
@@ -118,21 +123,40 @@ def say_parts(
         numbers: (P, C, COUNT) evidence of its candidates, as seen from the first side.
         real: (P, C) which candidates exist.
     """
-    kinds, rights, travels, carriers = [], [], [], []
+    kinds, rights, senses, nears, reaches, carriers = [], [], [], [], [], []
     padded = np.pad(share, ((0, 0), (0, tokens.shape[1] - share.shape[1])))
     for own, (quarters, mirrored) in zip(tokens, VIEWS, strict=False):
         flat = turned_evidence(numbers.reshape(-1, numbers.shape[2]), quarters, mirrored)
         seen = flat.reshape(numbers.shape).astype(np.float32)
         read = network.parts(own[None], np.zeros(len(share), dtype=np.int64), padded, seen, real)
-        slide = seen[..., SLIDE, None] > 0
-        travel = np.where(slide, read.travel, read.travel * np.float32(np.pi))
-        if mirrored:
-            travel = np.where(slide, travel, -travel[..., ::-1])
+        turns_other_way = mirrored & (seen[..., SLIDE] == 0)
         kinds.append(softmax(read.kind))
         rights.append(softmax(read.right))
-        travels.append(travel)
+        senses.append(np.where(turns_other_way, -read.sense, read.sense))
+        nears.append(sigmoid(read.near) / 2)
+        reaches.append(read.reach)
         carriers.append(softmax(_with_body(network.carriers(read.embedding, read.embedding))))
-    return SaidParts(*(_mean(np.stack(found)) for found in (kinds, rights, travels, carriers)))
+    kind, right, sense, near, reach, carrier = (
+        _mean(np.stack(found)) for found in (kinds, rights, senses, nears, reaches, carriers)
+    )
+    travel = _travel(numbers[..., SLIDE] > 0, sense, near, np.exp(reach))
+    return SaidParts(kind, right, travel, carrier)
+
+
+def _travel(slide: BoolArray, sense: FloatArray, near: FloatArray, reach: FloatArray) -> FloatArray:
+    """(P, C, 2) limits about each candidate: the longer way is the one that its sense speaks for.
+
+    Args:
+        slide: (P, C) whether it is a slide.
+        sense: (P, C) above 0 where it opens in the sense of its axis.
+        near: (P,) share of the travel that is on the shorter side; next to none is none.
+        reach: (P, 2) travel of a turn [rad] and of a slide [sides of the object].
+    """
+    whole = np.where(slide, reach[:, 1:], reach[:, :1])
+    back = np.where(near < _ONE_SIDED, 0.0, near)[:, None] * whole
+    onward = sense >= 0
+    lower, upper = np.where(onward, back, whole - back), np.where(onward, whole - back, back)
+    return np.stack([0.0 - lower, upper], axis=-1)
 
 
 def _with_body(carried: Float32Array) -> Float32Array:

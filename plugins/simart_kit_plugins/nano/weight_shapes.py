@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from .config import NanoConfig
-from .evidence import COUNT
+from .evidence import WAY
 from .novelty import LAYERS
 from .reading import POINT_NUMBERS
 from .scene import PAIR_NUMBERS, PIECE_NUMBERS
 from .truth import KINDS
+from .ways import WAY_NUMBERS
 
 
 def weight_shapes(config: NanoConfig) -> dict[str, tuple[int, ...]]:
@@ -20,7 +21,8 @@ def weight_shapes(config: NanoConfig) -> dict[str, tuple[int, ...]]:
         **_perceptron("points", POINT_NUMBERS, points, points),
         **_perceptron("enter", 2 * points + PIECE_NUMBERS, config.hidden, width),
         **_perceptron("part", 3 * width, config.hidden, width),
-        **_perceptron("candidate", COUNT, choice, choice),
+        **_perceptron("candidate", WAY.start, choice, choice),
+        **_perceptron("opening", width, choice, WAY_NUMBERS + 3),
         **_perceptron("carrier", 2 * width, config.hidden // 2, 1),
         **_norm("norm", width),
     }
@@ -30,7 +32,7 @@ def weight_shapes(config: NanoConfig) -> dict[str, tuple[int, ...]]:
     heads |= {"label": len(config.labels) + 1, "category": len(config.categories) + 1, "size": 1}
     for name, outer in (heads | {"asking": choice}).items():
         shapes |= _linear(name, width, outer)
-    return shapes | _linear("choice", choice, 3)
+    return shapes | _linear("choice", choice, 1)
 
 
 def statistic_shapes(config: NanoConfig) -> dict[str, tuple[int, ...]]:
