@@ -17,6 +17,7 @@ Bounds = tuple[Sequence[float], Sequence[float]]
 POST: Bounds = ((-0.2, 0.0, 0.0), (-0.01, 0.3, 1.0))
 # 1 wide and 0.02 thick; hinged at the origin it opens towards -y.
 DOOR: Bounds = ((0.0, 0.0, 0.0), (1.0, 0.02, 1.0))
+FRAME: Bounds = ((0.5, 0.03, 0.0), (1.2, 0.3, 1.0))  # close behind the door
 FAR: Bounds = ((5, 5, 0), (5.1, 5.1, 0.1))
 
 
@@ -73,8 +74,7 @@ def test_a_slide_ends_at_the_wall() -> None:
 
 def test_each_side_of_the_range_is_looked_at() -> None:
     """A frame close behind the door stops it on the way in, the wall on the way out."""
-    frame: Bounds = ((0.5, 0.03, 0.0), (1.2, 0.3, 1.0))
-    asset = assembled(hinge(-45, 90), [DOOR], [POST, frame, wall(np.sin(np.radians(60)))])
+    asset = assembled(hinge(-45, 90), [DOOR], [POST, FRAME, wall(np.sin(np.radians(60)))])
     limits = Sweep(Sweep.Options(steps=90)).modify(asset).joint("hinge").limits
     assert limits is not None
     assert -3.0 < np.degrees(limits.lower) <= 0.0
@@ -90,8 +90,8 @@ def test_the_range_ends_at_a_step() -> None:
 
 class TestStuck:
     def asset(self, **more: Any) -> sk.Asset:
-        """A wall 0.1 before the door: 6 of 90 degrees."""
-        return assembled(hinge(0, 90, **more), [DOOR], [POST, wall(0.1)])
+        """A wall 0.1 before the door: 6 of 90 degrees; and a frame behind it."""
+        return assembled(hinge(0, 90, **more), [DOOR], [POST, FRAME, wall(0.1)])
 
     def test_it_goes_no_farther_than_is_free_and_is_flagged(self) -> None:
         asset = self.asset()
@@ -123,6 +123,35 @@ class TestStuck:
         assert joint.flags == ()
         assert joint.limits is not None
         assert joint.limits.upper < np.radians(10)
+
+
+class TestTheOtherWay:
+    def test_a_hinge_that_is_free_the_other_way_turns_so(self) -> None:
+        asset = assembled(hinge(0, 70), [DOOR], [POST, wall(0.1)])
+        result = Sweep().modify(asset)
+        joint = result.joint("hinge")
+        assert joint == replace(asset.joint("hinge"), axis=(0.0, 0.0, 1.0))
+        assert [(note.level, note.text) for note in result.notes] == [
+            ("info", "hinge: blocked at once, opens the other way")
+        ]
+
+    def test_not_if_it_goes_half_as_far_that_way_already(self) -> None:
+        asset = assembled(hinge(-45, 90), [DOOR], [POST, FRAME, wall(0.1)])
+        assert Sweep().modify(asset).joint("hinge").kind == "fixed"
+
+    def test_not_if_it_hardly_comes_farther_there(self) -> None:
+        asset = assembled(hinge(0, 90), [DOOR], [POST, wall(0.1), ((0.5, 0.2, 0.0), (1.2, 0.3, 1.0))])
+        assert Sweep().modify(asset).joint("hinge").kind == "fixed"
+
+    def test_what_slides_does_so_as_well_if_it_is_no_button(self) -> None:
+        asset = assembled(slide(0.0, 0.5), [DOOR], [POST, wall(0.01)])
+        joint = Sweep().modify(asset).joint("slide")
+        assert joint == replace(asset.joint("slide"), axis=(0.0, 1.0, 0.0))
+
+    def test_a_button_that_does_not_go_in_does_not_come_out(self) -> None:
+        button: Bounds = ((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))
+        asset = assembled(slide(0.0, 0.5), [button], [POST, wall(0.01)])
+        assert Sweep().modify(asset).joint("slide").kind == "fixed"
 
 
 def test_a_joint_that_was_given_no_way_is_held_fixed() -> None:

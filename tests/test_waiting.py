@@ -84,11 +84,18 @@ class TestRack:
         assert result.limits is not None
         assert result.limits.upper < 0.1
 
-    def test_a_rack_that_goes_through_the_back_is_stuck_all_the_same(self) -> None:
+    def test_a_rack_that_would_go_through_the_back_comes_out_of_the_door(self) -> None:
         backwards = slide("rack", (0, 1, 0), 0.6)
         result = Sweep().modify(made(PARTS, backwards, hinge(95))).joint("rack_slide")
-        assert len(result.flags) == 1
-        assert result.evidence == ()
+        assert result.axis == (0, -1, 0)
+        assert result.flags == ()
+        assert result.evidence == ("only when door is open",)
+
+    def test_a_rack_that_goes_through_the_back_is_stuck_if_the_door_is(self) -> None:
+        backwards = slide("rack", (0, 1, 0), 0.6)
+        fixed = sk.Joint("door_mount", "fixed", "case", "door")
+        result = Sweep().modify(made(PARTS, backwards, fixed)).joint("rack_slide")
+        assert (result.kind, len(result.flags)) == ("fixed", 1)
 
     def test_a_blocker_that_waits_for_another(self) -> None:
         """A bar before the door has to be lifted first; a flap of 90 degrees down would hit it."""

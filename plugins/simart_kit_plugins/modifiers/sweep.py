@@ -12,17 +12,20 @@ import simart_kit
 from simart_kit import Modifier, hookimpl
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from simart_kit import Asset, Joint
     from simart_kit.hookspecs import Register
+    from simart_kit.waiting import FreeRange
 
 _FEW = 0.01  # [m]: ways that are shorter are told in millimetres
 
 
 class Sweep(Modifier):
-    """Shortens limits to what is free, so that no part goes through another; holds fixed what is stuck.
+    """Shortens limits to what is free, so that no part goes through another; turns or holds what is stuck.
 
     A joint that comes no farther than a quarter of its way has the wrong axis, mostly: fixed and flagged it
-    harms nothing. So is one that was given no way at all.
+    harms nothing. So is one that was given no way at all. What is free the other way goes so.
     What stands in another part at rest, as a rod in its sleeve, may slide on in it, whether or not there is a
     hole.
     What its own joint takes out of the way is no obstacle: a rack keeps its range behind a door, and a note.
@@ -52,20 +55,24 @@ class Sweep(Modifier):
     def modify(self, asset: Asset) -> Asset:
         """The asset with limits that surfaces allow; notes tell each change, warnings each stuck joint."""
         from simart_kit.clearing import held
-        from simart_kit.kinematics import LEAST_TRAVEL
-        from simart_kit.waiting import free_ranges, sunk
+        from simart_kit.waiting import free_ranges
 
+        ranges = free_ranges(asset, self.options.steps, self.seed)
+        turned = self._opening_otherwise(asset, ranges)
+        told = [f"{name}: blocked at once, opens the other way" for name in turned]
+        if turned:
+            asset = asset.with_joints(turned)
+            ranges = free_ranges(asset, self.options.steps, self.seed)
         changed: dict[str, Joint] = {}
-        told, stuck = [], []
-        for name, free in free_ranges(asset, self.options.steps, self.seed).items():
+        stuck = []
+        for name, free in ranges.items():
             joint = asset.joint(name)
             assert joint.limits is not None
-            wanted = joint.limits.upper - joint.limits.lower
+            wanted = _wanted(joint)
             before = _range(joint, joint.limits.lower, joint.limits.upper)
             short = replace(joint, limits=simart_kit.Limits(free.lower, free.upper))
-            stops = free.travel < max(self.options.least * wanted, LEAST_TRAVEL)
-            sinks = stops and wanted >= LEAST_TRAVEL
-            pressed = sunk(asset, joint, self.options.steps, self.seed) if sinks else None
+            stops = self._stops(joint, free)
+            pressed = self._sunk(asset, joint) if stops else None
             if pressed is not None:
                 changed[name] = pressed
                 told.append(_sunk(joint, pressed))
@@ -88,6 +95,33 @@ class Sweep(Modifier):
         return (
             asset.with_joints(changed).with_notes("sweep", "info", told).with_notes("sweep", "warning", stuck)
         )
+
+    def _opening_otherwise(self, asset: Asset, ranges: Mapping[str, FreeRange]) -> dict[str, Joint]:
+        """Joints by name that stop at once, sink into nothing, and are free the other way round."""
+        from simart_kit.reversing import opening_otherwise
+
+        joints = [asset.joint(name) for name, free in ranges.items() if self._stops(asset.joint(name), free)]
+        stuck = [joint.name for joint in joints if self._sunk(asset, joint) is None]
+        return opening_otherwise(asset, stuck, self.options.least, self.options.steps, self.seed)
+
+    def _stops(self, joint: Joint, free: FreeRange) -> bool:
+        """Whether a joint comes hardly any way."""
+        from simart_kit.kinematics import LEAST_TRAVEL
+
+        return free.travel < max(self.options.least * _wanted(joint), LEAST_TRAVEL)
+
+    def _sunk(self, asset: Asset, joint: Joint) -> Joint | None:
+        from simart_kit.kinematics import LEAST_TRAVEL
+        from simart_kit.waiting import sunk
+
+        sinks = _wanted(joint) >= LEAST_TRAVEL
+        return sunk(asset, joint, self.options.steps, self.seed) if sinks else None
+
+
+def _wanted(joint: Joint) -> float:
+    """Its whole travel [rad | m]."""
+    assert joint.limits is not None
+    return joint.limits.upper - joint.limits.lower
 
 
 def _sunk(joint: Joint, pressed: Joint) -> str:
