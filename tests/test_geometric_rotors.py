@@ -96,12 +96,12 @@ def test_blades_hang_in_the_air_and_feet_stand_on_the_ground(pole, expected):
 
 def test_what_a_network_takes_single_blades_for_becomes_one_part():
     mesh = mesh_of(*stand(), *blades(4))
-    hinge = sk.Joint("j", "revolute", "body", "part", axis=(1, 0, 0), limits=sk.Limits(0, 1))
 
-    def proposal(faces, name, parent=None):
+    def proposal(faces, name, parent=None, sure=0.6):
         mask = np.zeros(len(mesh.faces), dtype=bool)
         mask[faces] = True
-        return Proposal(mask, sk.PartGuess(name, label=name), hinge, parent)
+        hinge = sk.Joint("j", "revolute", "body", "part", axis=(1, 0, 0), limits=sk.Limits(0, 1))
+        return Proposal(mask, sk.PartGuess(name, label=name), replace(hinge, confidence=sure), parent)
 
     first, motor = len(mesh.faces) - 48, range(24, 36)
     head = proposal([*motor, *range(first, first + 3)], "head")
@@ -121,3 +121,7 @@ def test_what_a_network_takes_single_blades_for_becomes_one_part():
     again = with_rotors(mesh, [head, replace(said[1], parent=0)], [rotor])
     assert [(p.guess.label, p.parent) for p in again] == [("head", None), ("blades", 0)]
     assert with_rotors(mesh, [], [rotor])[0].faces.sum() == rotor.faces.sum()
+    # Blades that surely turn about a line across the rotor's axis are set, as a wind turbine's are.
+    surely = [head, *(proposal(np.flatnonzero(p.faces), "blade", 0, 0.8) for p in said[1:])]
+    assert [p.guess.label for p in with_rotors(mesh, surely, [rotor])] == ["head", "blade", "blade"]
+    assert len(with_rotors(mesh, [*surely[:2], said[2]], [rotor])) == 2

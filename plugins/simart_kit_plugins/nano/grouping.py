@@ -44,16 +44,21 @@ def groups(moves: FloatArray, together: FloatArray, area: FloatArray, least: flo
         # A large sure piece knows more of its part than a small one does.
         seed = int(np.where(left, moves + 0.05 * np.log(area / area.max() + 1e-6), -np.inf).argmax())
         members = _members(seed, left, together, area)
-        inside = together[np.ix_(members, members)]
-        weight = area[members] / area[members].sum()
-        score = float(weight @ moves[members] * (weight @ inside @ weight))
+        group = group_of(members, moves, together, area)
         left[members] = False
-        if score >= least:
-            found.append(Group(members, score))
+        if group.score >= least:
+            found.append(group)
     if sum(len(group.pieces) for group in found) == len(moves):
         # Something has to stand still: the largest is the likeliest.
         found.remove(max(found, key=lambda group: area[group.pieces].sum()))
     return sorted(found, key=lambda group: -group.score)
+
+
+def group_of(pieces: IntArray, moves: FloatArray, together: FloatArray, area: FloatArray) -> Group:
+    """These pieces as a group; arguments as of `groups`."""
+    weight = area[pieces] / area[pieces].sum()
+    inside = together[np.ix_(pieces, pieces)]
+    return Group(pieces, float(weight @ moves[pieces] * (weight @ inside @ weight)))
 
 
 def _members(seed: int, left: np.ndarray, together: FloatArray, area: FloatArray) -> IntArray:

@@ -18,6 +18,7 @@ from .evidence import COUNT
 from .grouping import Group, groups, piece_parts
 from .novelty import TokenStatistics, tokens_of
 from .part_lines import part_lines
+from .parting import parted
 from .siblings import nearest_carriers, shared_certainty
 from .voting import VOTES, Said, SaidParts, say, say_parts
 
@@ -110,7 +111,8 @@ def predict(
     """
     said = say(network, cloud, votes)
     area = _areas(cloud)
-    found = [g for g in groups(said.moves, said.together, area, _WORTH) if len(g.pieces) < cloud.count]
+    grown = parted(groups(said.moves, said.together, area, _WORTH), said, cloud, area)
+    found = [group for group in grown if len(group.pieces) < cloud.count]
     parts = tuple(plausible(part, area) for part in _parts(network, said, cloud, found))
     names = network.config.categories
     best = int(said.category.argmax())

@@ -6,7 +6,7 @@ from collections.abc import Hashable, Sequence
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray, IntArray
+from simart_kit.arrays import BoolArray, FloatArray, IntArray
 
 from .cloud import Cloud
 
@@ -28,13 +28,18 @@ def shared_certainty(cloud: Cloud, parts: Sequence[IntArray], certainty: FloatAr
     """
     if not parts:
         return certainty
+    same = shaped_alike(cloud, parts)
+    return np.asarray(same @ certainty / same.sum(axis=1))
+
+
+def shaped_alike(cloud: Cloud, parts: Sequence[IntArray]) -> BoolArray:
+    """(P, P) whether two parts, by their pieces, have boxes and areas alike."""
     shape = np.array([_shape(cloud, pieces) for pieces in parts])
     larger = np.maximum(shape[:, None], shape[None])
     apart = np.abs(shape[:, None] - shape[None]) / np.maximum(larger, 1e-9)
     # Of a thin part the thickness is mostly noise: it is compared with the part's length.
     apart[..., :3] = np.abs(shape[:, None, :3] - shape[None, :, :3]) / np.maximum(larger[..., 2:3], 1e-9)
-    same = (apart <= _ALIKE).all(axis=2)
-    return np.asarray(same @ certainty / same.sum(axis=1))
+    return np.asarray((apart <= _ALIKE).all(axis=2))
 
 
 def nearest_carriers(
