@@ -100,7 +100,7 @@ def test_edits_are_kept_to(tmp_path, cheap):
 
 def test_limits_that_others_shorten_are_a_remark(tmp_path, monkeypatch, cheap):
     def long(self, mesh, segmentation, spec=None):
-        drawer = Joint("slide", "prismatic", "body", "left_drawer", (0, 0, 0), (0, 1, 0), Limits(0, 0.4))
+        drawer = Joint("slide", "prismatic", "body", "left_drawer", (0, 0, 0), (1, 0, 0), Limits(0, 0.4))
         return (drawer,)
 
     monkeypatch.setattr("simart_kit_plugins.geometric.predictor.GeometricJoints._predicted", long)
