@@ -8,12 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from .asset import Asset, Joint
-from .kinematics import carried
-from .waiting import free_ranges
+from .waiting import SMALL, faces_of, free_ranges, stops
 
 # Of the longer way from rest: what goes farther than this to the other side, too, has no side to open to.
 _BOTH_WAYS = 0.5
-_SMALL = 0.1  # of the object's diagonal: buttons, keys and switches
 
 
 def opening_otherwise(
@@ -31,12 +29,11 @@ def opening_otherwise(
         seed: of the sampling.
     """
     joints = [joint for joint in map(asset.joint, stuck) if _one_sided(joint)]
-    joints = [joint for joint in joints if joint.turns or _large(asset, joint)]
-    turned = {joint.name: _turned(joint) for joint in joints}
+    turned = {joint.name: _turned(joint) for joint in joints if joint.turns or _large(asset, joint)}
     if not turned:
         return {}
     free = free_ranges(asset.with_joints(turned), steps, seed)
-    return {name: joint for name, joint in turned.items() if free[name].travel >= least * _wanted(joint)}
+    return {name: joint for name, joint in turned.items() if not stops(joint, free[name], least)}
 
 
 def _turned(joint: Joint) -> Joint:
@@ -46,16 +43,10 @@ def _turned(joint: Joint) -> Joint:
 
 def _one_sided(joint: Joint) -> bool:
     assert joint.limits is not None
-    ways = sorted((abs(joint.limits.lower), abs(joint.limits.upper)))
-    return ways[0] <= _BOTH_WAYS * ways[1]
+    shorter, longer = sorted((-joint.limits.lower, joint.limits.upper))
+    return shorter <= _BOTH_WAYS * longer
 
 
 def _large(asset: Asset, joint: Joint) -> bool:
-    moving = np.isin(asset.face_part, [asset.part_index(name) for name in carried(asset, joint.child)])
-    size = np.linalg.norm(np.ptp(asset.mesh.points_of(moving), axis=0))
-    return bool(size > _SMALL * asset.mesh.diagonal)
-
-
-def _wanted(joint: Joint) -> float:
-    assert joint.limits is not None
-    return joint.limits.upper - joint.limits.lower
+    size = np.linalg.norm(np.ptp(asset.mesh.points_of(faces_of(asset, joint.child)), axis=0))
+    return bool(size > SMALL * asset.mesh.diagonal)

@@ -10,11 +10,11 @@ import numpy as np
 from .arrays import BoolArray, FloatArray
 from .asset import Asset, Joint, Limits
 from .bounds import bounds_of, sharing
-from .kinematics import carried, reach_box, rest_to_posed
+from .kinematics import LEAST_TRAVEL, carried, reach_box, rest_to_posed
 from .sweeping import Sweep, free_range, move
 
 _ENOUGH = 0.5  # of the wanted travel: what comes so far waits for nothing, and waiting has to yield it
-_SMALL, _HELD = 0.1, 0.3  # of the object's diagonal: buttons, keys and switches; triggers and grips
+SMALL, _HELD = 0.1, 0.3  # of the object's diagonal: buttons, keys and switches; triggers and grips
 # Words of what fingers press, which may take half of the object: a presenter's touchpad.
 _PRESSED, _MOST = {"button", "key", "switch", "touchpad", "trigger", "squeeze", "thumbstick"}, 0.5
 _KNOBS, _MIDDLE = {"knob", "dial"}, 0.1  # how far from its middle, of its size, a knob's line may pass
@@ -56,7 +56,7 @@ def free_ranges(asset: Asset, steps: int, seed: int) -> dict[str, FreeRange]:
     limited = [joint for joint in asset.joints if joint.limits is not None]
     none = np.zeros(len(asset.face_part), dtype=bool)
     found = {joint.name: _swept(asset, joint, {}, none, steps, seed) for joint in limited}
-    held = [joint for joint in limited if found[joint.name].travel < _ENOUGH * _wanted(joint)]
+    held = [joint for joint in limited if found[joint.name].travel < _ENOUGH * wanted(joint)]
     for _ in held:
         better = {joint.name: _waited(asset, joint, found, steps, seed) for joint in held}
         if better == {joint.name: found[joint.name] for joint in held}:
@@ -66,6 +66,11 @@ def free_ranges(asset: Asset, steps: int, seed: int) -> dict[str, FreeRange]:
         found[first] = better[first]
         held = [joint for joint in held if joint.name != first]
     return found
+
+
+def stops(joint: Joint, free: FreeRange, least: float) -> bool:
+    """Whether a joint with limits comes less than this share of its way, or none."""
+    return free.travel < max(least * wanted(joint), LEAST_TRAVEL)
 
 
 def sunk(asset: Asset, joint: Joint, steps: int, seed: int) -> Joint | None:
@@ -85,23 +90,23 @@ def sunk(asset: Asset, joint: Joint, steps: int, seed: int) -> Joint | None:
     Returns:
         The joint with the travel that it may have; None if it may have none.
     """
-    if joint.kind not in ("prismatic", "revolute"):
+    if joint.kind not in ("prismatic", "revolute") or wanted(joint) < LEAST_TRAVEL:
         return None
-    mesh, moving = asset.mesh, _faces(asset, joint.child)
+    mesh, moving = asset.mesh, faces_of(asset, joint.child)
     points = mesh.vertices[mesh.faces[moving]].reshape(-1, 3)
     along, size = np.ptp(points @ np.array(joint.axis)), np.linalg.norm(np.ptp(points, axis=0))
     words = set(asset.part(joint.child).label.replace("_", " ").split())
     named = not _PRESSED.isdisjoint(words)
     little = _LITTLE * size
-    most = _TILT if joint.turns else max(along, little) if size <= _SMALL * mesh.diagonal else little
+    most = _TILT if joint.turns else max(along, little) if size <= SMALL * mesh.diagonal else little
     if joint.turns and not _KNOBS.isdisjoint(words) and _within(joint, points):
         most, named = np.inf, False
     elif named and not joint.turns:
         joint = _shortened(joint, float(most))
-    if _wanted(joint) > most or size > (_MOST if named else _HELD) * mesh.diagonal:
+    if wanted(joint) > most or size > (_MOST if named else _HELD) * mesh.diagonal:
         return None
     carrier = asset.face_part == asset.part_index(joint.parent)
-    free = _swept(asset, joint, {}, carrier, steps, seed).travel == _wanted(joint)
+    free = _swept(asset, joint, {}, carrier, steps, seed).travel == wanted(joint)
     return joint if free else None
 
 
@@ -115,20 +120,20 @@ def _within(joint: Joint, points: FloatArray) -> bool:
 def _shortened(joint: Joint, most: float) -> Joint:
     """A joint whose travel, if it is longer than `most`, is shortened to that on both sides of rest alike."""
     assert joint.limits is not None
-    share = min(1.0, most / max(_wanted(joint), 1e-12))
+    share = min(1.0, most / max(wanted(joint), 1e-12))
     return replace(joint, limits=Limits(share * joint.limits.lower, share * joint.limits.upper))
 
 
 def _waited(asset: Asset, joint: Joint, found: Mapping[str, FreeRange], steps: int, seed: int) -> FreeRange:
     """The range of a joint once what can go out of its way is; as found where that is no more."""
     alone = found[joint.name]
-    others = {name: _faces(asset, asset.joint(name).child) for name in _openable(asset, joint, found)}
+    others = {name: faces_of(asset, asset.joint(name).child) for name in _openable(asset, joint, found)}
     gone = np.any([np.zeros(len(asset.face_part), dtype=bool), *others.values()], axis=0)
     most = _swept(asset, joint, {}, gone, steps, seed)
-    least = _ENOUGH * _wanted(joint)
+    least = _ENOUGH * wanted(joint)
     if not others or most.travel < least:
         return alone
-    mine = _faces(asset, joint.child)
+    mine = faces_of(asset, joint.child)
     reach = reach_box(joint, asset.mesh.points_of(mine))
     blockers = [
         name
@@ -161,7 +166,7 @@ def _swept(
     asset: Asset, joint: Joint, opened: Mapping[str, float], without: BoolArray, steps: int, seed: int
 ) -> FreeRange:
     """The free range of a joint with others open and (F,) faces left out."""
-    mesh, moving = asset.mesh, _faces(asset, joint.child)
+    mesh, moving = asset.mesh, faces_of(asset, joint.child)
     vertices, faces = mesh.vertices, mesh.faces
     if opened:
         posed = rest_to_posed(asset, opened)
@@ -181,11 +186,12 @@ def _moved(asset: Asset, opened: Collection[str]) -> list[str]:
     return [part.name for part in asset.parts if part.name in names]
 
 
-def _faces(asset: Asset, part: str) -> BoolArray:
+def faces_of(asset: Asset, part: str) -> BoolArray:
     """(F,) faces of a part and of what it carries."""
     return np.isin(asset.face_part, [asset.part_index(name) for name in carried(asset, part)])
 
 
-def _wanted(joint: Joint) -> float:
+def wanted(joint: Joint) -> float:
+    """The whole travel of a joint with limits [rad | m]."""
     assert joint.limits is not None
     return joint.limits.upper - joint.limits.lower

@@ -143,6 +143,10 @@ class TestTheOtherWay:
         asset = assembled(hinge(0, 90), [DOOR], [POST, wall(0.1), ((0.5, 0.2, 0.0), (1.2, 0.3, 1.0))])
         assert Sweep().modify(asset).joint("hinge").kind == "fixed"
 
+    def test_what_was_given_no_way_has_no_other_one(self) -> None:
+        asset = assembled(hinge(0, 0), [DOOR], [POST])
+        assert [note.level for note in Sweep().modify(asset).notes] == ["warning"]
+
     def test_what_slides_does_so_as_well_if_it_is_no_button(self) -> None:
         asset = assembled(slide(0.0, 0.5), [DOOR], [POST, wall(0.01)])
         joint = Sweep().modify(asset).joint("slide")

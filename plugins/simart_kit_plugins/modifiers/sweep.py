@@ -54,31 +54,47 @@ class Sweep(Modifier):
 
     def modify(self, asset: Asset) -> Asset:
         """The asset with limits that surfaces allow; notes tell each change, warnings each stuck joint."""
-        from simart_kit.clearing import held
-        from simart_kit.waiting import free_ranges
+        from simart_kit.reversing import opening_otherwise
+
+        ranges, pressed = self._ways(asset)
+        stuck = [name for name, joint in pressed.items() if joint is None]
+        turned = opening_otherwise(asset, stuck, self.options.least, self.options.steps, self.seed)
+        if turned:
+            told = [f"{name}: blocked at once, opens the other way" for name in turned]
+            asset = asset.with_joints(turned).with_notes("sweep", "info", told)
+            ranges, pressed = self._ways(asset)
+        return self._settled(asset, ranges, pressed)
+
+    def _ways(self, asset: Asset) -> tuple[dict[str, FreeRange], dict[str, Joint | None]]:
+        """How far each joint is free, and how each that stops at once sinks in all the same, or None."""
+        from simart_kit.waiting import free_ranges, stops, sunk
 
         ranges = free_ranges(asset, self.options.steps, self.seed)
-        turned = self._opening_otherwise(asset, ranges)
-        told = [f"{name}: blocked at once, opens the other way" for name in turned]
-        if turned:
-            asset = asset.with_joints(turned)
-            ranges = free_ranges(asset, self.options.steps, self.seed)
+        stopped = [n for n, free in ranges.items() if stops(asset.joint(n), free, self.options.least)]
+        return ranges, {n: sunk(asset, asset.joint(n), self.options.steps, self.seed) for n in stopped}
+
+    def _settled(
+        self, asset: Asset, ranges: Mapping[str, FreeRange], pressed: Mapping[str, Joint | None]
+    ) -> Asset:
+        """The asset with joints as `_ways` found them."""
+        from simart_kit.clearing import held
+        from simart_kit.waiting import wanted
+
         changed: dict[str, Joint] = {}
-        stuck = []
+        told, stuck = [], []
         for name, free in ranges.items():
             joint = asset.joint(name)
             assert joint.limits is not None
-            wanted = _wanted(joint)
             before = _range(joint, joint.limits.lower, joint.limits.upper)
             short = replace(joint, limits=simart_kit.Limits(free.lower, free.upper))
-            stops = self._stops(joint, free)
-            pressed = self._sunk(asset, joint) if stops else None
-            if pressed is not None:
-                changed[name] = pressed
-                told.append(_sunk(joint, pressed))
+            sinks = pressed.get(name)
+            if sinks is not None:
+                changed[name] = sinks
+                told.append(_sunk(joint, sinks))
                 continue
-            if stops:
-                blocked = f"blocked after {_amount(joint, max(free.upper, -free.lower), wanted)} of {before}"
+            if name in pressed:
+                way = _amount(joint, max(free.upper, -free.lower), wanted(joint))
+                blocked = f"blocked after {way} of {before}"
                 fixes = self.options.stuck == "fix"
                 flag = f"sweep: {joint.kind} {blocked}"
                 changed[name] = held(joint, flag) if fixes else replace(short, flags=(*joint.flags, flag))
@@ -95,33 +111,6 @@ class Sweep(Modifier):
         return (
             asset.with_joints(changed).with_notes("sweep", "info", told).with_notes("sweep", "warning", stuck)
         )
-
-    def _opening_otherwise(self, asset: Asset, ranges: Mapping[str, FreeRange]) -> dict[str, Joint]:
-        """Joints by name that stop at once, sink into nothing, and are free the other way round."""
-        from simart_kit.reversing import opening_otherwise
-
-        joints = [asset.joint(name) for name, free in ranges.items() if self._stops(asset.joint(name), free)]
-        stuck = [joint.name for joint in joints if self._sunk(asset, joint) is None]
-        return opening_otherwise(asset, stuck, self.options.least, self.options.steps, self.seed)
-
-    def _stops(self, joint: Joint, free: FreeRange) -> bool:
-        """Whether a joint comes hardly any way."""
-        from simart_kit.kinematics import LEAST_TRAVEL
-
-        return free.travel < max(self.options.least * _wanted(joint), LEAST_TRAVEL)
-
-    def _sunk(self, asset: Asset, joint: Joint) -> Joint | None:
-        from simart_kit.kinematics import LEAST_TRAVEL
-        from simart_kit.waiting import sunk
-
-        sinks = _wanted(joint) >= LEAST_TRAVEL
-        return sunk(asset, joint, self.options.steps, self.seed) if sinks else None
-
-
-def _wanted(joint: Joint) -> float:
-    """Its whole travel [rad | m]."""
-    assert joint.limits is not None
-    return joint.limits.upper - joint.limits.lower
 
 
 def _sunk(joint: Joint, pressed: Joint) -> str:

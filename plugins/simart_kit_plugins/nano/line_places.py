@@ -58,8 +58,8 @@ def line_places(found: Candidates, part: FloatArray, rest: FloatArray, details: 
     along = found.axis @ reach
     beside = np.linalg.norm(reach - along[:, None] * found.axis, axis=1)
     beyond = ((middle - rest) / size @ away.T).max(axis=0, initial=0.0) - np.linalg.norm(off, axis=1)
-    held, _, _ = _on_lines(found, part, _around(rest, low, high, size), size)
-    _, near, apart = _on_lines(found, part, _around(details.hardware, low, high, size), size)
+    held, _, _ = _on_lines(found, part, around(rest, low, high, _AROUND * size), size)
+    _, near, apart = _on_lines(found, part, around(details.hardware, low, high, _AROUND * size), size)
     numbers = [
         np.clip(off, -2, 2),
         np.where(slide, beside, away @ reach)[:, None],
@@ -80,9 +80,8 @@ def from_lines(found: Candidates, point: FloatArray) -> FloatArray:
     return np.asarray(reach - (reach * axis).sum(axis=1, keepdims=True) * axis)
 
 
-def _around(points: FloatArray, low: FloatArray, high: FloatArray, size: float) -> FloatArray:
-    """The (K, 3) points that are in a box or near it."""
-    margin = _AROUND * size
+def around(points: FloatArray, low: FloatArray, high: FloatArray, margin: float) -> FloatArray:
+    """The (K, 3) points that are in a box or this near it."""
     return points[((points > low - margin) & (points < high + margin)).all(axis=1)]
 
 

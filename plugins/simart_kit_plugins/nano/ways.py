@@ -11,7 +11,7 @@ import numpy as np
 from simart_kit.arrays import FloatArray, units
 
 from .candidates import SLIDE, Candidates
-from .line_places import from_lines
+from .line_places import around, from_lines
 
 WAY_NUMBERS = 5
 # Shares of the part's size: around it, what is beside it; how far a grip stands out at most.
@@ -36,8 +36,7 @@ def ways(found: Candidates, part: FloatArray, rest: FloatArray, grip: FloatArray
     slide = (found.source == SLIDE)[:, None]
     turn = np.cross(units(found.axis), from_lines(found, middle)) / (size / 2)
     way = np.where(slide, units(found.axis), turn)
-    margin = _BESIDE * size
-    beside = rest[((rest > low - margin) & (rest < high + margin)).all(axis=1)]
+    beside = around(rest, low, high, _BESIDE * size)
     away = units(np.stack([middle, *(_from_middle(middle, points) for points in (rest, beside))]))
     out = (way @ (grip - middle))[:, None] / (_OUT * size)
     return np.asarray(np.clip(np.concatenate([way[:, 2:], way @ away.T, out], axis=1), -1, 1))
