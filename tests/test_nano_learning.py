@@ -134,6 +134,21 @@ def test_the_same_seed_gives_the_same_network():
     assert not torch.equal(one.moves.weight, other.moves.weight)
 
 
+def test_a_parts_carrier_is_looked_for_among_the_parts_of_its_own_object(examples):
+    network = NanoNetwork(small()).eval()
+    several = [e for e in examples if len(e.number) > 1][:3]
+
+    def cost(some):
+        return losses(network, network(batch_of(some)), targets_of(some, network.config)).terms["carrier"]
+
+    with torch.no_grad():
+        alone = [cost([one]).item() for one in several]
+        together = cost(several).item()
+    counts = [len(one.number) for one in several]
+    assert together == pytest.approx(np.average(alone, weights=counts), abs=1e-4)
+    assert min(alone) > 0
+
+
 def test_objects_without_parts_have_a_finite_loss():
     still = GeneratedObject("chair", (MADE.bodies[0],))
     batch = [stored(example(still, np.random.default_rng(0), 0.3))]

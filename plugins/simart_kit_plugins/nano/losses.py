@@ -117,10 +117,12 @@ def _of_travel(read: PartReading, targets: Targets, nothing: Tensor) -> dict[str
 
 def _carrier(model: NanoNetwork, embedding: Tensor, targets: Targets) -> Tensor:
     """Cross-entropy of each part's carrier among the parts of its object and the body, whose logit is 0."""
-    logits = model.carriers(embedding, embedding)
-    stranger = targets.owner[:, None] != targets.owner[None]
-    stranger = stranger | torch.eye(len(stranger), dtype=torch.bool, device=stranger.device)
-    logits = logits.masked_fill(stranger, -torch.inf)
+    beside = targets.owner[:, None] == targets.owner[None]
+    beside = beside & ~torch.eye(len(beside), dtype=torch.bool, device=beside.device)
+    # Of a batch's pairs of parts few are of one object: all of them would be half of what a step computes.
+    child, parent = torch.nonzero(beside, as_tuple=True)
+    told = model.carrier(torch.cat([embedding[child], embedding[parent]], dim=1))[:, 0]
+    logits = told.new_full(beside.shape, -torch.inf).index_put((child, parent), told)
     body = logits.new_zeros(len(logits), 1)
     return cross_entropy(torch.cat([body, logits], dim=1), targets.parent + 1)
 
