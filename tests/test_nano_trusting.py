@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from simart_kit_plugins.nano.predicting import PredictedPart, Prediction
 from simart_kit_plugins.nano.proposals import Proposal
-from simart_kit_plugins.nano.trusting import enough, heeded, settled
+from simart_kit_plugins.nano.trusting import enough, heeded, leads, settled
 
 from simart_kit import Joint, Limits, PartGuess
 
@@ -21,7 +21,7 @@ def part(piece, certainty, kind="prismatic"):
     )
 
 
-def said(*parts, discord=0.002, novelty=3.0):
+def said(*parts, discord=0.0015, novelty=3.0):
     moves = np.full(3, 0.9)
     return Prediction(parts, (), np.zeros(3, int), moves, "desk", discord, novelty, {}, (1.0, 1.0))
 
@@ -57,10 +57,10 @@ def test_a_quarter_is_enough_in_what_it_recognises_known_by_name_or_not(skin):
 
 
 def test_what_is_not_new_is_recognised_by_less():
-    much_alike = said(part(DRAWER, 0.21), discord=0.002, novelty=1.0)
-    assert kept(much_alike) == [DRAWER]
-    assert kept(replace(much_alike, novelty=1.5)) == []
-    assert kept(replace(much_alike, discord=0.005)) == []
+    not_new = said(part(DRAWER, 0.21), discord=0.005, novelty=1.0)
+    assert kept(not_new) == [DRAWER]
+    assert kept(replace(not_new, novelty=1.5)) == []
+    assert kept(replace(not_new, discord=0.015)) == []
 
 
 def test_half_is_enough_in_what_is_made_as_what_was_trained_on_whatever_each_side_says():
@@ -91,3 +91,24 @@ def test_geometry_has_no_say_in_what_surely_stands_still():
     assert left.parent is None  # what carried it is gone
     # Who says something else from each side is not asked.
     assert len(heeded(replace(unsure, discord=0.05), [drawer, lid], piece, areas)) == 2
+
+
+def proposal(kind):
+    limits = None if kind == "continuous" else Limits(0.0, 0.5)
+    joint = Joint("j", kind, "body", "part", axis=(0.0, -1.0, 0.0), limits=limits)
+    return Proposal(np.array([True]), PartGuess("part", label="part"), joint, None)
+
+
+def test_the_network_leads_in_what_it_recognises_unless_geometry_finds_as_much():
+    slide, turn = proposal("prismatic"), proposal("revolute")
+    quite, rather = said(discord=0.002, novelty=1.0), said(discord=0.008, novelty=1.0)
+    assert leads(rather, [slide, turn], [slide])
+    assert leads(rather, [turn], [slide])
+    assert not leads(rather, [slide, turn], [turn, slide])
+    assert leads(quite, [slide, turn], [turn, slide])
+
+
+def test_geometry_leads_in_what_is_not_recognised_if_it_finds_anything():
+    new = said(discord=0.008, novelty=1.5)
+    assert not leads(new, [proposal("prismatic")], [proposal("revolute")])
+    assert leads(new, [proposal("prismatic")], [])

@@ -28,7 +28,7 @@ _WORTH = 0.3
 _CARRIED = 0.5
 # An object of which the sides differ no more than by the first is recognised, and by the second if it is no
 # newer than that: what it has seen alike it reads alike from all sides, else each side says something else.
-_ALIKE, MUCH_ALIKE, _NO_NEWER = 0.001, 0.003, 1.05
+_ALIKE, _ALIKE_IF_NOT_NEW, _NO_NEWER = 0.0005, 0.01, 1.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +93,7 @@ class Prediction:
     @property
     def recognised(self) -> bool:
         """Whether it is read alike from all sides, as what was trained on is, of whatever kind."""
-        alike = MUCH_ALIKE if self.novelty <= _NO_NEWER else _ALIKE
+        alike = _ALIKE_IF_NOT_NEW if self.novelty <= _NO_NEWER else _ALIKE
         return self.discord <= alike
 
 

@@ -122,7 +122,7 @@ class Nano(Segmenter):
         from .proposals import of_network, with_body
         from .rotors import with_rotors
         from .travel import with_travel
-        from .trusting import heeded
+        from .trusting import heeded, leads
 
         if spec is None:
             geometry = heeded(said, geometry, seen.face_piece, mesh.face_areas)
@@ -130,7 +130,7 @@ class Nano(Segmenter):
         if self.options.pool:
             proposals = with_rotors(mesh, proposals, geometry)
             # Borders and lines by geometry are exact, but who knows the object finds more of it.
-            known = said.recognised or not geometry
+            known = leads(said, proposals, geometry)
             first, second = (proposals, geometry) if known else (geometry, proposals)
             both = pooled(mesh, first, second, known=known)
             proposals = with_hardware(mesh, seen.face_piece, both)

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
 from simart_kit.arrays import FloatArray, IntArray
 
 from .grouping import piece_parts
-from .predicting import MUCH_ALIKE, Prediction
+from .predicting import Prediction
 from .proposals import Proposal, only
 
 # Shares of the sureness asked for that are enough in an object that is recognised, and in a familiar one.
 _KNOWN, _HALF = 1 / 4, 1 / 2
 # Familiar is what is read much alike from all sides, or is no newer than so if these are not quite at odds.
-_NO_NEWER, _AT_ODDS = 1.15, 0.02
+_MUCH_ALIKE, _NO_NEWER, _AT_ODDS = 0.002, 1.15, 0.02
+# Where both find as much of each kind, geometry's borders are better unless the sides differ by no more.
+_HARDLY = 0.003
 # What is less likely than this to move is sure to stand still, in what is read much alike from all sides.
 _STILL = 0.02
 
@@ -29,7 +32,7 @@ def enough(said: Prediction, least: float, skin: bool) -> float:
     """
     if said.recognised:
         return _KNOWN * least
-    familiar = said.discord <= (_AT_ODDS if said.novelty <= _NO_NEWER else MUCH_ALIKE)
+    familiar = said.discord <= (_AT_ODDS if said.novelty <= _NO_NEWER else _MUCH_ALIKE)
     return _HALF * least if familiar and not skin else least
 
 
@@ -54,10 +57,28 @@ def heeded(
         piece: (F,) of each face of the mesh.
         areas: (F,) of each face.
     """
-    if said.discord > MUCH_ALIKE:
+    if said.discord > _MUCH_ALIKE:
         return list(geometry)
     moving = said.moves[piece] * areas
     return only(
         geometry,
         [k for k, p in enumerate(geometry) if moving[p.faces].sum() >= _STILL * areas[p.faces].sum()],
     )
+
+
+def leads(said: Prediction, found: Sequence[Proposal], geometry: Sequence[Proposal]) -> bool:
+    """Whether what the network finds comes first, and geometry only adds to it; else it is the other way.
+
+    Args:
+        said: of the object.
+        found: proposals by the network.
+        geometry: by geometry.
+    """
+    if not geometry:
+        return True
+    agreed = _kinds(found) == _kinds(geometry)
+    return said.recognised and (said.discord <= _HARDLY or not agreed)
+
+
+def _kinds(proposals: Sequence[Proposal]) -> Counter[str]:
+    return Counter(proposal.joint.kind for proposal in proposals)
