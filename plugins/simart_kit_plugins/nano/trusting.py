@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -16,7 +15,7 @@ from .proposals import Proposal, only
 _KNOWN, _HALF = 1 / 4, 1 / 2
 # Familiar is what is read much alike from all sides, or is no newer than so if these are not quite at odds.
 _MUCH_ALIKE, _NO_NEWER, _AT_ODDS = 0.002, 1.15, 0.02
-# Where both find as much of each kind, geometry's borders are better unless the sides differ by no more.
+# Where geometry finds as many parts, its borders are better unless the sides differ by no more.
 _HARDLY = 0.003
 # What is less likely than this to move is sure to stand still, in what is read much alike from all sides.
 _STILL = 0.02
@@ -76,9 +75,4 @@ def leads(said: Prediction, found: Sequence[Proposal], geometry: Sequence[Propos
     """
     if not geometry:
         return True
-    agreed = _kinds(found) == _kinds(geometry)
-    return said.recognised and (said.discord <= _HARDLY or not agreed)
-
-
-def _kinds(proposals: Sequence[Proposal]) -> Counter[str]:
-    return Counter(proposal.joint.kind for proposal in proposals)
+    return said.recognised and (said.discord <= _HARDLY or len(geometry) < len(found))
