@@ -140,10 +140,7 @@ def painted(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, sk.Result]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("simart_kit.render.write_preview", lambda asset, path: path)
         sets = ['modify=[{use="scale"}]']  # physics has no colours
-        # Colours that run across all of it are nothing to tell parts by: these are not asked of the network.
-        result = sk.convert(
-            folder / "painted.glb", out=folder / "out", recipe="geometric", record=False, sets=sets
-        )
+        result = sk.convert(folder / "painted.glb", out=folder / "out", record=False, sets=sets)
     return folder / "painted.glb", result
 
 
