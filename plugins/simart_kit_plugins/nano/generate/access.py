@@ -30,7 +30,7 @@ _DOOR_AT = 0.08
 
 
 def _latch(dice: Dice, kit: Assembly, leaf: int, spot: FloatArray, style: float, side: int) -> None:
-    """What keeps a locker shut: a key's cylinder, a handle that turns, a dial, a bar or keys on a plate."""
+    """What a locker is opened by: a lock for a key, a handle that turns, a dial or a bar."""
     if style < 0.25:
         kit.fix(moved([disc(0.012, 0.008), box((0.004, 0.01, 0.014), (0, -0.01, 0))], spot), DARK, leaf)
     elif style < 0.5:

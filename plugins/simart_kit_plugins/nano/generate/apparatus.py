@@ -37,8 +37,7 @@ def _microscope(dice: Dice) -> list[Body]:
         coat,
     )
     eye = np.array([0, -0.2 * deep, top])
-    number = kit.add("turret", spin(eye - [0, 0, 0.003], UP), [(_turret(dice, eye), metal)])
-    assert number
+    kit.add("turret", spin(eye - [0, 0, 0.003], UP), [(_turret(dice, eye), metal)])
     head = [cylinder(0.032, 0.02, 18) + eye + [0, 0, 0.0435], cylinder(0.03, 0.05, 18) + eye + [0, 0, 0.075]]
     lean = rotation(RIGHT, dice.between(0.6, 0.9))
     for x in dice.pick(((0.0,), (-0.03, 0.03))):

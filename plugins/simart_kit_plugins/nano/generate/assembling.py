@@ -113,6 +113,11 @@ def _placed(one: Surface, matrix: FloatArray, step: FloatArray) -> Surface:
     return there
 
 
+def scaled(bodies: Sequence[Body], scale: float) -> list[Body]:
+    """The bodies as many times as large, about 0."""
+    return [body.placed(scale * np.eye(3), np.zeros(3)) for body in bodies]
+
+
 def swing(side: int, x: float, y: float, upper: float, z: float = 0.0) -> Motion:
     """An upright hinge of a leaf that opens to -y: at its left edge (-1) or its right (1)."""
     return hinge((x, y, z), (0, 0, side), upper)

@@ -8,7 +8,7 @@ from ...shapes.dice import Dice
 from ...shapes.placing import X, at, moved, pointed, rotation, turned
 from ...shapes.primitives import Pieces, box, cylinder, revolve
 from . import looks
-from .assembling import Assembly, swing
+from .assembling import Assembly, scaled, swing
 from .category import Category
 from .machine_tools_parts import DARK, handwheel, sideways
 from .objects import Body, hinge, slide, spin
@@ -88,7 +88,7 @@ def _drawbridge(dice: Dice) -> list[Body]:
     if dice.chance(0.5):
         spot = np.array([wide / 2 + pier + 0.0005, 0, 0.5 * high])
         kit.add("winch", spin(spot, RIGHT), [(moved(sideways(handwheel(dice, 0.2), 1), spot), wood)])
-    return [body.placed(scale * np.eye(3), np.zeros(3)) for body in kit.done()]
+    return scaled(kit.done(), scale)
 
 
 def _beads(dice: Dice, kit: Assembly, wide: float, radius: float, z: float) -> None:

@@ -10,7 +10,7 @@ from ...shapes.dice import Dice
 from ...shapes.placing import X, Y, moved, pointed, rotation, turned
 from ...shapes.primitives import Pieces, between, box, cylinder, revolve, rod, torus
 from . import looks
-from .assembling import Assembly
+from .assembling import Assembly, scaled
 from .category import Category
 from .objects import Body, Look, hinge, spin
 from .rigging import LEFT, RIGHT, lying
@@ -89,7 +89,7 @@ def _cannon(dice: Dice) -> list[Body]:
     pin, tilt = np.array([0, 0, level]), dice.between(-0.05, 0.2)
     barrel = moved(turned(_barrel(long, radius, gap), rotation(LEFT, tilt)), pin)
     kit.add("barrel", hinge(pin, LEFT, 0.35 - tilt, -0.1 - tilt), [(barrel, metal)])
-    return [body.placed(scale * np.eye(3), np.zeros(3)) for body in kit.done()]
+    return scaled(kit.done(), scale)
 
 
 CATEGORIES = (Category("cannon", _cannon),)

@@ -9,7 +9,7 @@ from ...shapes.placing import around, moved, pointed, rotation, turned
 from ...shapes.primitives import box, boxes, cylinder, rod, torus
 from ...shapes.primitives import superquadric as soft
 from . import looks
-from .assembling import Assembly
+from .assembling import Assembly, scaled
 from .category import Category
 from .objects import Body, Look, hinge, slide, spin
 from .rigging import BACK, RIGHT, UP, lying
@@ -83,8 +83,7 @@ def _ferris_wheel(dice: Dice) -> list[Body]:
         ]
         cabin.append(box((0.22, 0.26, 0.02), (0, 0, -0.03)) if box_ else box((0.03, 0.26, 0.03), (0, 0, 0)))
         kit.add("cabin", spin(hub + spot, BACK), [(moved(cabin, hub + spot), looks.plastic(dice))], wheel)
-    bodies = kit.done()
-    return [body.placed(scale * np.eye(3), np.zeros(3)) for body in bodies]
+    return scaled(kit.done(), scale)
 
 
 def _carousel(dice: Dice) -> list[Body]:
@@ -141,8 +140,7 @@ def _carousel(dice: Dice) -> list[Body]:
                 )
             ],
         )
-    bodies = kit.done()
-    return [body.placed(scale * np.eye(3), np.zeros(3)) for body in bodies]
+    return scaled(kit.done(), scale)
 
 
 CATEGORIES = (

@@ -19,7 +19,7 @@ from .rigging import BACK, FRONT, LEFT, RIGHT, UP, lying
 
 
 def _hair_straightener(dice: Dice) -> list[Body]:
-    """Two arms about a pin at one end, with plates inside, a dial, a lock and a cord's joint."""
+    """Two arms about a pin at one end, with plates inside; at times a dial, a switch and a cord."""
     kit, shell = Assembly("lower arm"), looks.plastic(dice)
     long, wide, thick = dice.between(0.22, 0.3), dice.between(0.025, 0.045), dice.between(0.012, 0.018)
     angle = dice.between(0.12, 0.25)
