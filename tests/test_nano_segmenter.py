@@ -15,6 +15,7 @@ from simart_kit_plugins.nano.meshes import MOST_PIECES, mesh_cloud
 from simart_kit_plugins.nano.network import NanoNetwork
 from simart_kit_plugins.nano.reading import PartsRead, PiecesRead
 from simart_kit_plugins.nano.segmenter import Nano
+from simart_kit_plugins.nano.trusting import enough
 from simart_kit_plugins.nano.truth import KINDS
 from simart_kit_plugins.nano.weights import load_model, save_network
 
@@ -105,6 +106,14 @@ def test_a_lone_voice_does_not_pull_a_piece_from_its_part():
     np.fill_diagonal(together, 1)
     found = groups(np.array([0.99, 0.9, 0.9, 0.9, 0.7, 0.1]), together, np.ones(6), least=0.0)
     assert [group.pieces.tolist() for group in found] == [[0, 1, 2, 3], [4]]
+
+
+def test_each_of_two_parts_alike_keeps_its_own_pieces():
+    together = np.array(
+        [[1, 0.95, 0.7, 0.6], [0.95, 1, 0.55, 0.3], [0.7, 0.55, 1, 0.95], [0.6, 0.3, 0.95, 1]]
+    )
+    found = groups(np.array([0.99, 0.9, 0.98, 0.9, 0.0]), np.pad(together, (0, 1)), np.ones(5), least=0.0)
+    assert [group.pieces.tolist() for group in found] == [[0, 1], [2, 3]]
 
 
 def seen(mesh):
@@ -245,6 +254,24 @@ def test_parts_that_are_not_sure_enough_stay_with_the_body_and_are_told(monkeypa
     told = [note.text for note in found.notes if "not sure enough" in note.text]
     assert len(told) == 2
     assert all(text.startswith("a door that the network took for revolute") for text in told)
+
+
+@pytest.mark.parametrize(
+    ("pool", "found", "alone"), [(True, False, True), (True, True, False), (False, False, False)]
+)
+def test_the_network_is_alone_where_geometry_is_asked_and_finds_nothing(monkeypatch, pool, found, alone):
+    asset = cabinet_asset()
+    model = Told(Oracle([0] * 5, False), KNOWN)
+    monkeypatch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: model)
+    if not found:
+        monkeypatch.setattr("simart_kit_plugins.nano.proposals.of_geometry", lambda mesh, seed: [])
+    told = []
+    monkeypatch.setattr(
+        "simart_kit_plugins.nano.trusting.enough",
+        lambda said, least, skin, alone: told.append(alone) or enough(said, least, skin, alone),
+    )
+    Nano(read_options(Nano, {"model": "any", "pool": pool})).segment(asset.mesh)
+    assert told == [alone]
 
 
 def test_candidates_that_say_the_same_are_alike():

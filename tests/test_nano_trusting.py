@@ -26,8 +26,8 @@ def said(*parts, discord=0.0015, novelty=3.0):
     return Prediction(parts, (), np.zeros(3, int), moves, "desk", discord, novelty, {}, (1.0, 1.0))
 
 
-def kept(prediction, skin=False):
-    found = settled(prediction, enough(prediction, 0.8, skin))
+def kept(prediction, skin=False, alone=False):
+    found = settled(prediction, enough(prediction, 0.8, skin, alone))
     assert len(found.parts) + len(found.doubtful) == len(prediction.parts)
     for number, one in enumerate(found.parts, start=1):
         assert (found.piece_part[one.pieces] == number).all()
@@ -42,6 +42,13 @@ def test_half_is_enough_in_what_is_read_much_alike_from_all_sides(certainty, fou
 def test_all_is_asked_where_each_side_says_something_else():
     assert kept(said(part(DRAWER, 0.79), discord=0.05)) == []
     assert kept(said(part(DRAWER, 0.81), discord=0.05)) == [DRAWER]
+
+
+def test_half_is_enough_where_geometry_finds_nothing():
+    new = said(part(DRAWER, 0.41), part(LID, 0.39), discord=0.05)
+    assert kept(new) == []
+    assert kept(new, alone=True) == [DRAWER]
+    assert kept(new, alone=True, skin=True) == []
 
 
 def test_all_is_asked_on_a_skin():

@@ -1,4 +1,4 @@
-"""Pieces to parts: who says that it moves takes along those that it says it moves with."""
+"""Pieces to parts: those that move, in clusters of what moves together."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray, IntArray
 
-# A piece joins a part when its mean chance of belonging with the part's pieces is above this.
-_JOINS = 0.5
-_ROUNDS = 3
+# Two clusters of pieces are one part when the mean chance of their pieces to belong together is above this.
+_JOINS = 0.55
 # A piece whose chance to move is less belongs to the body.
 _MOVES = 0.5
 
@@ -34,20 +33,14 @@ def groups(moves: FloatArray, together: FloatArray, area: FloatArray, least: flo
 
     Args:
         moves: (S,) chance of each piece to be of a moving part.
-        together: (S, S) chance of two pieces to be of one part.
+        together: (S, S) chance of two pieces to be of one part; symmetric.
         area: (S,) of the pieces, any unit.
         least: parts less sure than this are left out.
     """
-    left = moves >= _MOVES
-    found: list[Group] = []
-    while left.any():
-        # A large sure piece knows more of its part than a small one does.
-        seed = int(np.where(left, moves + 0.05 * np.log(area / area.max() + 1e-6), -np.inf).argmax())
-        members = _members(seed, left, together, area)
-        group = group_of(members, moves, together, area)
-        left[members] = False
-        if group.score >= least:
-            found.append(group)
+    pieces = np.flatnonzero(moves >= _MOVES)
+    part = _parts(together[np.ix_(pieces, pieces)])
+    every = [group_of(pieces[part == k], moves, together, area) for k in np.unique(part)]
+    found = [group for group in every if group.score >= least]
     if sum(len(group.pieces) for group in found) == len(moves):
         # Something has to stand still: the largest is the likeliest.
         found.remove(max(found, key=lambda group: area[group.pieces].sum()))
@@ -61,19 +54,20 @@ def group_of(pieces: IntArray, moves: FloatArray, together: FloatArray, area: Fl
     return Group(pieces, float(weight @ moves[pieces] * (weight @ inside @ weight)))
 
 
-def _members(seed: int, left: np.ndarray, together: FloatArray, area: FloatArray) -> IntArray:
-    """The pieces that belong with a seed, by what the part found so far says on average."""
-    chance = together[seed]
-    members = np.flatnonzero(left & (chance > _JOINS))
-    members = np.union1d(members, [seed])
-    for _ in range(_ROUNDS):
-        weight = np.sqrt(area[members])
-        chance = weight @ together[members] / weight.sum()
-        grown = np.union1d(np.flatnonzero(left & (chance > _JOINS)), [seed])
-        if np.array_equal(grown, members):
-            break
-        members = grown
-    return np.asarray(members, dtype=np.int64)
+def _parts(together: FloatArray) -> IntArray:
+    """(S,) part of each piece: the surest pieces are joined first (average linkage).
+
+    Of what is alike, as drawers side by side are, each then has its own before any could take another's.
+    """
+    from scipy.cluster.hierarchy import fcluster, linkage
+    from scipy.spatial.distance import squareform
+
+    if len(together) < 2:
+        return np.zeros(len(together), dtype=np.int64)
+    apart = np.maximum(1 - together, 0)
+    np.fill_diagonal(apart, 0)
+    tree = linkage(squareform(apart, checks=False), "average")
+    return np.asarray(fcluster(tree, 1 - _JOINS, "distance"), dtype=np.int64)
 
 
 def piece_parts(found: Sequence[IntArray], count: int) -> IntArray:

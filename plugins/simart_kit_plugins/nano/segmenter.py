@@ -45,8 +45,8 @@ class Nano(Segmenter):
             ge=0,
             le=1,
             description="Parts less sure than this stay with the body; a quarter of it is enough in an "
-            "object that is recognised, half in one that is read much alike from all sides or made as those "
-            "that were trained on.",
+            "object that is recognised, half in one that is read much alike from all sides, is made as those "
+            "that were trained on, or has nothing that `geometric` finds.",
         )
         votes: int = Field(
             default=4,
@@ -79,7 +79,7 @@ class Nano(Segmenter):
 
         from .meshes import mesh_cloud
         from .predicting import predict
-        from .proposals import with_body
+        from .proposals import of_geometry, with_body
         from .showing import evidence
         from .stored_model import read_model, shipped_folder
         from .trusting import enough, settled
@@ -93,9 +93,11 @@ class Nano(Segmenter):
         if spec is not None and spec.moves:
             still = 0.0
         moves = still < _STILL
-        bar = enough(said, self.options.least, seen.skin)
+        # On a skin geometry finds more than the network does.
+        asked = self.options.pool and moves and not (seen.skin and spec is not None)
+        geometry = of_geometry(mesh, self.seed) if asked else []
+        bar = enough(said, self.options.least, seen.skin, alone=asked and not geometry)
         said = settled(said, bar)
-        geometry = self._geometry(mesh) if moves and not (seen.skin and spec is not None) else []
         fronts = with_body(mesh, geometry) if seen.skin else []
         if fronts or not moves:
             found = _of_proposals(mesh, fronts, seen, material)
@@ -139,12 +141,6 @@ class Nano(Segmenter):
         kept = with_body(mesh, proposals)
         found = _of_proposals(mesh, kept, seen, material)
         return found if spec is None else rejoined(mesh, found, kept, seen, spec)
-
-    def _geometry(self, mesh: Mesh) -> list[Proposal]:
-        """What geometry finds, if it is asked: on a skin more than the network does."""
-        from .proposals import of_geometry
-
-        return of_geometry(mesh, self.seed) if self.options.pool else []
 
 
 def _of_proposals(

@@ -11,7 +11,8 @@ from .grouping import piece_parts
 from .predicting import Prediction
 from .proposals import Proposal, only
 
-# Shares of the sureness asked for that are enough in an object that is recognised, and in a familiar one.
+# Shares of the sureness asked for that are enough in an object that is recognised, and in a familiar one or
+# where nothing else is found.
 _KNOWN, _HALF = 1 / 4, 1 / 2
 # Familiar is what is read much alike from all sides, or is no newer than so if these are not quite at odds.
 _MUCH_ALIKE, _NO_NEWER, _AT_ODDS = 0.002, 1.15, 0.02
@@ -21,18 +22,19 @@ _HARDLY = 0.003
 _STILL = 0.02
 
 
-def enough(said: Prediction, least: float, skin: bool) -> float:
+def enough(said: Prediction, least: float, skin: bool, alone: bool) -> float:
     """How sure a part of an object has to be: less so in one that is like what was trained on.
 
     Args:
         said: with all parts that are worth a thought.
         least: how sure a part has to be, of moving as one and of how, in any object.
         skin: whether it is one closed skin; of these the network knows too little to be trusted with less.
+        alone: whether geometry was asked and finds nothing; else what is not sure would stand still.
     """
     if said.recognised:
         return _KNOWN * least
     familiar = said.discord <= (_AT_ODDS if said.novelty <= _NO_NEWER else _MUCH_ALIKE)
-    return _HALF * least if familiar and not skin else least
+    return _HALF * least if (familiar or alone) and not skin else least
 
 
 def settled(said: Prediction, least: float) -> Prediction:
