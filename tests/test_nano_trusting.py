@@ -49,6 +49,7 @@ def test_half_is_enough_where_geometry_finds_nothing():
     assert kept(new) == []
     assert kept(new, alone=True) == [DRAWER]
     assert kept(new, alone=True, skin=True) == []
+    assert kept(replace(new, discord=float("inf")), alone=True) == []  # seen from one side
 
 
 def test_all_is_asked_on_a_skin():

@@ -93,7 +93,7 @@ class Nano(Segmenter):
         if spec is not None and spec.moves:
             still = 0.0
         moves = still < _STILL
-        # On a skin geometry finds more than the network does.
+        # With a spec, a skin is cut by what the network says of its patches; else geometry finds more on it.
         asked = self.options.pool and moves and not (seen.skin and spec is not None)
         geometry = of_geometry(mesh, self.seed) if asked else []
         bar = enough(said, self.options.least, seen.skin, alone=asked and not geometry)

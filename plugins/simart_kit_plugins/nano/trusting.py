@@ -34,6 +34,8 @@ def enough(said: Prediction, least: float, skin: bool, alone: bool) -> float:
     if said.recognised:
         return _KNOWN * least
     familiar = said.discord <= (_AT_ODDS if said.novelty <= _NO_NEWER else _MUCH_ALIKE)
+    # What is seen from one side alone, as of many pieces, is sure of nothing: no other side could object.
+    alone = alone and said.discord < float("inf")
     return _HALF * least if (familiar or alone) and not skin else least
 
 
