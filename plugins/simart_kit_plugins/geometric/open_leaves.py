@@ -135,17 +135,22 @@ def _possible(scene: Scene, panel: IntArray) -> Iterator[Leaf]:
 
 def _closes_plate(scene: Scene, leaf: Leaf, own: IntArray) -> bool:
     """Whether all the rest is a plate of the panel's size that begins at its edge, as of a laptop."""
-    rest = scene.triangles[~np.isin(scene.labels, own)].reshape(-1, 3) - leaf.hinge
-    if not len(rest):
-        return False
     slack, half = _PLATE * leaf.sizes, leaf.sizes[0] / 2
-    across = rest @ leaf.axis
-    if not (abs(across.min() + half) < slack[0] and abs(across.max() - half) < slack[0]):
+    boxes = [(box.lower, box.upper) for piece, box in enumerate(scene.boxes) if piece not in own]
+    if not boxes:
         return False
-    along, out = rest @ leaf.closed, rest @ leaf.outward
+    # `closed` is an axis of the frame: along it boxes end as what is in them does, which rules most out.
+    along = (np.array(boxes) - leaf.hinge) @ leaf.closed
+    near = slack[1] + leaf.thickness
+    if not (abs(along.min()) < near and abs(along.max() - leaf.sizes[1]) < near):
+        return False
+    used = np.zeros(len(scene.vertices), dtype=np.bool_)
+    used[scene.faces[~np.isin(scene.labels, own)]] = True
+    rest = scene.vertices[used] - leaf.hinge
+    across, out = rest @ leaf.axis, rest @ leaf.outward
     return bool(
-        abs(along.min()) < slack[1] + leaf.thickness
-        and abs(along.max() - leaf.sizes[1]) < slack[1] + leaf.thickness
+        abs(across.min() + half) < slack[0]
+        and abs(across.max() - half) < slack[0]
         and np.ptp(out) < _SLAB * leaf.sizes.min()
         and out.max() < 0.5 * _SLAB * leaf.sizes.min()
     )
