@@ -136,16 +136,16 @@ def _possible(scene: Scene, panel: IntArray) -> Iterator[Leaf]:
 def _closes_plate(scene: Scene, leaf: Leaf, own: IntArray) -> bool:
     """Whether all the rest is a plate of the panel's size that begins at its edge, as of a laptop."""
     slack, half = _PLATE * leaf.sizes, leaf.sizes[0] / 2
-    boxes = [(box.lower, box.upper) for piece, box in enumerate(scene.boxes) if piece not in own]
-    if not boxes:
+    others = ~np.isin(np.arange(scene.count), own)
+    if not others.any():
         return False
     # `closed` is an axis of the frame: along it boxes end as what is in them does, which rules most out.
-    along = (np.array(boxes) - leaf.hinge) @ leaf.closed
+    along = (scene.bounds[others] - leaf.hinge) @ leaf.closed
     near = slack[1] + leaf.thickness
     if not (abs(along.min()) < near and abs(along.max() - leaf.sizes[1]) < near):
         return False
     used = np.zeros(len(scene.vertices), dtype=np.bool_)
-    used[scene.faces[~np.isin(scene.labels, own)]] = True
+    used[scene.faces[others[scene.labels]]] = True
     rest = scene.vertices[used] - leaf.hinge
     across, out = rest @ leaf.axis, rest @ leaf.outward
     return bool(

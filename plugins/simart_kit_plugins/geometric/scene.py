@@ -120,14 +120,19 @@ class Scene:
         return Rays(self.vertices, self.faces)
 
     @cached_property
-    def boxes(self) -> tuple[Box, ...]:
-        """The bounding box of each piece."""
+    def bounds(self) -> FloatArray:
+        """(count, 2, 3) lower and upper corner of each piece."""
         lower = np.full((self.count, 3), np.inf)
         upper = np.full((self.count, 3), -np.inf)
         lows, highs = triangle_bounds(self.triangles)
         np.minimum.at(lower, self.labels, lows)
         np.maximum.at(upper, self.labels, highs)
-        return tuple(Box(low, high) for low, high in zip(lower, upper, strict=True))
+        return np.stack([lower, upper], axis=1)
+
+    @cached_property
+    def boxes(self) -> tuple[Box, ...]:
+        """The bounding box of each piece."""
+        return tuple(Box(low, high) for low, high in self.bounds)
 
     @cached_property
     def box(self) -> Box:
