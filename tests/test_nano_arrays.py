@@ -6,12 +6,14 @@ import sys
 import numpy as np
 import pytest
 import torch
-from simart_kit_plugins.nano.array_network import ArrayNetwork, sigmoid, softmax
+from simart_kit_plugins.nano.array_layers import sigmoid, softmax
+from simart_kit_plugins.nano.array_network import ArrayNetwork
+from simart_kit_plugins.nano.array_pairs import rivalry
 from simart_kit_plugins.nano.config import NanoConfig
 from simart_kit_plugins.nano.evidence import COUNT
 from simart_kit_plugins.nano.network import Batch, NanoNetwork
-from simart_kit_plugins.nano.reading import POINT_NUMBERS, PartsRead, PiecesRead, Rows
-from simart_kit_plugins.nano.scene import PIECE_NUMBERS
+from simart_kit_plugins.nano.reading import POINT_NUMBERS, PairInputs, PartsRead, PiecesRead, Rows
+from simart_kit_plugins.nano.scene import COLOR, HALF, MIDDLE, PIECE_NUMBERS
 from simart_kit_plugins.nano.weight_shapes import weight_shapes
 
 CONFIG = NanoConfig(
@@ -21,6 +23,7 @@ CONFIG = NanoConfig(
     hidden=40,
     point_channels=12,
     choice_channels=20,
+    pair_channels=10,
     labels=("door", "lid"),
     categories=("box", "cabinet", "chair"),
 )
@@ -64,6 +67,37 @@ def test_objects_are_read_as_the_trained_network_reads_them(networks, rows):
         expected = trained(Batch(*(torch.from_numpy(v) for v in vars(rows).values())))
     assert expected.moves.std() > 0.1
     agree(expected, arrays.read(rows), PiecesRead.__dataclass_fields__)
+
+
+def test_pairs_are_read_as_the_trained_network_reads_them(networks, rows):
+    trained, arrays = networks
+    with torch.no_grad():
+        batch = Batch(*(torch.from_numpy(v) for v in vars(rows).values()))
+        expected = trained.paired(batch, trained(batch), torch.tensor([0, 1]), 16)
+    read = arrays.read(rows)
+    said = (read.tokens, read.together, read.moves, read.kind)
+    found = arrays.paired(PairInputs(*said, rows.numbers, rows.gap, rows.there))
+    assert np.abs(found - read.together).max() > 0.1
+    for row, size in enumerate(rows.there.sum(axis=1)):
+        seen = np.s_[row, :size, :size]
+        assert found[seen].dtype == np.float32
+        np.testing.assert_allclose(found[seen], expected[seen].numpy(), rtol=1e-5, atol=1e-5)
+
+
+def test_a_handle_has_no_rival_but_for_the_drawers_that_are_not_its_own():
+    """Two drawers side by side, each with a handle near it, and a padding that is near everything."""
+    own = np.zeros((1, 5, PIECE_NUMBERS), dtype=np.float32)
+    own[0, :, MIDDLE.start] = (0.0, 0.3, 0.0, 0.3, 0.1)
+    own[0, :4, HALF] = np.array([[0.1] * 3, [0.1] * 3, [0.02] * 3, [0.02] * 3])
+    own[0, 2:4, COLOR] = 0.5
+    gap = np.full((1, 5, 5), 0.06, dtype=np.float32)
+    gap[0, [0, 2], [2, 0]] = gap[0, [1, 3], [3, 1]] = 0.003
+    there = np.array([[True, True, True, True, False]])
+    larger, smaller, farther, _ = rivalry(own, gap, there)[0]
+    assert larger[0, 2] == smaller[0, 2] == 0
+    assert larger[0, 3] == smaller[0, 3] == pytest.approx(1 - 0.003 / 0.06)
+    assert farther[0, 3] == pytest.approx(0.3 / 0.5)
+    assert farther[0, 2] == 0
 
 
 def test_parts_and_who_carries_them_are_read_as_the_trained_network_reads_them(networks):

@@ -1,5 +1,8 @@
 """Examples, their files, and a network that learns from them."""
 
+import math
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
@@ -10,8 +13,9 @@ from simart_kit_plugins.nano.generate.category import named
 from simart_kit_plugins.nano.generate.data_set import generated
 from simart_kit_plugins.nano.generate.objects import GeneratedObject
 from simart_kit_plugins.nano.learning import batch_of, targets_of
-from simart_kit_plugins.nano.losses import losses
+from simart_kit_plugins.nano.losses import _of_pieces, losses
 from simart_kit_plugins.nano.network import NanoNetwork
+from simart_kit_plugins.nano.reading import MOST_PAIRED
 from simart_kit_plugins.nano.store import load, save, stored
 from simart_kit_plugins.nano.truth import KINDS
 from simart_kit_plugins.nano.varying import fused, placed
@@ -128,6 +132,45 @@ def test_the_order_of_points_and_the_company_of_other_objects_change_nothing(exa
     assert torch.allclose(alone.together, alone.together.transpose(1, 2), atol=1e-5)
 
 
+def test_pairs_are_looked_at_the_same_in_any_order_and_company(examples):
+    network = NanoNetwork(small(pair_channels=8), 0).eval()
+    for parameter in network.pairs.parameters():
+        parameter.data += 0.2 * torch.randn(parameter.shape, generator=torch.Generator().manual_seed(1))
+    few = [e for e in examples if len(e.own) <= MOST_PAIRED]
+    one, other = few[0], max(few, key=lambda e: len(e.own))
+    size, most = len(one.own), len(other.own)
+    with torch.no_grad():
+        batch = batch_of([one, other])
+        both = network.paired(batch, network(batch), torch.tensor([0, 1]), most)
+        batch = batch_of([one])
+        alone = network.paired(batch, network(batch), torch.tensor([True]), size)
+    assert (alone - both[:1, :size, :size]).abs().max() < 1e-3
+    assert torch.allclose(alone, alone.transpose(1, 2), atol=1e-4)
+
+
+def test_what_pairs_teach_stays_in_their_layers_and_objects_of_many_pieces_teach_none(examples):
+    network = NanoNetwork(small(), 0)
+    few = [e for e in examples if len(e.own) <= MOST_PAIRED][:3]
+    batch, targets = batch_of(few), targets_of(few, network.config)
+    losses(network, batch, network(batch), targets).terms["paired"].backward()
+    learning = {name for name, p in network.named_parameters() if p.grad is not None and p.grad.any()}
+    assert {name.split(".")[0] for name in learning} == {"pairs"}
+    many = replace(batch, there=torch.ones(len(few), MOST_PAIRED + 1, dtype=torch.bool))
+    assert losses(network, many, network(batch), targets).terms["paired"].item() == 0
+
+
+def test_strangers_that_move_too_have_their_share_of_what_a_piece_costs():
+    """A body of two pieces, two parts of one, and a wrong word about these two alone."""
+    part = torch.tensor([[0, 0, 1, 2]])
+    logits = torch.where(part[:, :, None] == part[:, None], 30.0, -30.0)
+    logits[0, [2, 3], [3, 2]] = 0.0
+    # Each of the two has three strangers, one of which moves.
+    for neighbours, expected in ((0.0, math.log(2) / 3), (0.5, math.log(2) * (0.5 / 3 + 0.5))):
+        cost, weight = _of_pieces(logits, part, neighbours, 0.3)
+        assert cost[0].tolist() == pytest.approx([0, 0, expected, expected], abs=1e-6)
+        assert weight[0].tolist() == pytest.approx([0.15, 0.15, 1, 1])
+
+
 def test_the_same_seed_gives_the_same_network():
     one, two, other = NanoNetwork(small(), 1), NanoNetwork(small(), 1), NanoNetwork(small(), 2)
     assert all(torch.equal(a, b) for a, b in zip(one.parameters(), two.parameters(), strict=True))
@@ -139,7 +182,8 @@ def test_a_parts_carrier_is_looked_for_among_the_parts_of_its_own_object(example
     several = [e for e in examples if len(e.number) > 1][:3]
 
     def cost(some):
-        return losses(network, network(batch_of(some)), targets_of(some, network.config)).terms["carrier"]
+        batch = batch_of(some)
+        return losses(network, batch, network(batch), targets_of(some, network.config)).terms["carrier"]
 
     with torch.no_grad():
         alone = [cost([one]).item() for one in several]
@@ -151,9 +195,9 @@ def test_a_parts_carrier_is_looked_for_among_the_parts_of_its_own_object(example
 
 def test_objects_without_parts_have_a_finite_loss():
     still = GeneratedObject("chair", (MADE.bodies[0],))
-    batch = [stored(example(still, np.random.default_rng(0), 0.3))]
-    network = NanoNetwork(small(), 0)
-    found = losses(network, network(batch_of(batch)), targets_of(batch, network.config))
+    some = [stored(example(still, np.random.default_rng(0), 0.3))]
+    network, batch = NanoNetwork(small(), 0), batch_of(some)
+    found = losses(network, batch, network(batch), targets_of(some, network.config))
     found.total.backward()
     assert torch.isfinite(found.total)
     assert found.terms["right"].item() == 0
@@ -164,14 +208,14 @@ def test_a_short_training_lowers_every_loss_and_beats_chance(examples):
     optimiser = torch.optim.AdamW(network.parameters(), lr=3e-3)
     some = examples[::2]
     batch, targets = batch_of(some), targets_of(some, network.config)
-    first = losses(network, network(batch), targets)
+    first = losses(network, batch, network(batch), targets)
     for _ in range(50):
         optimiser.zero_grad()
-        losses(network, network(batch), targets).total.backward()
+        losses(network, batch, network(batch), targets).total.backward()
         optimiser.step()
     with torch.no_grad():
         reading = network(batch)
-        last = losses(network, reading, targets)
+        last = losses(network, batch, reading, targets)
     lower = {name: last.terms[name] < first.terms[name] for name in first.terms}
     assert all(lower.values()), lower
     real = targets.part >= 0

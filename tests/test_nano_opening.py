@@ -8,8 +8,8 @@ import torch
 from simart_kit_plugins.nano.config import NanoConfig
 from simart_kit_plugins.nano.learning import Targets
 from simart_kit_plugins.nano.losses import losses
-from simart_kit_plugins.nano.network import NanoNetwork, PartReading
-from simart_kit_plugins.nano.reading import PiecesRead
+from simart_kit_plugins.nano.network import Batch, NanoNetwork, PartReading
+from simart_kit_plugins.nano.reading import MOST_PAIRED, PiecesRead
 from simart_kit_plugins.nano.truth import KINDS
 
 CONFIG = NanoConfig(channels=16, layers=1, heads=2, hidden=16, point_channels=8)
@@ -55,7 +55,8 @@ def costs(travel, said, kind=REVOLUTE, right=(1.0, -1.0, 0.0)):
         torch.zeros(1),
         torch.zeros(1, 2, 16),
     )
-    terms = losses(network, pieces, targets).terms
+    batch = Batch(*(torch.ones(1, MOST_PAIRED + 1) for _ in range(5)))  # too many to look at pairs
+    terms = losses(network, batch, pieces, targets).terms
     return [terms[name].item() for name in ("sense", "near", "reach")]
 
 

@@ -57,6 +57,9 @@ class Oracle(ArrayNetwork):
             np.zeros((sides, most, 16), np.float32),
         )
 
+    def paired(self, given):
+        return given.together
+
     def parts(self, tokens, owner, share, numbers, real):
         kind = np.zeros((len(owner), len(KINDS)))
         kind[:, KINDS.index("prismatic" if self.slides else "revolute")] = SURE

@@ -128,6 +128,18 @@ def test_a_share_of_the_weights_of_the_start_stays_in_the_result(plan, objects, 
         torch.testing.assert_close(tensor, 0.25 * start[name] + 0.75 * alone[name])
 
 
+def test_pair_layers_are_trained_with_all_else_held(plan, objects, tmp_path):
+    save_network(train(plan, objects, tmp_path / "first", lambda row: None), tmp_path / "model")
+    start = weights(load_model(tmp_path / "model").network)
+    further = plan.model_copy(update={"start": str(tmp_path / "model"), "only": "pairs", "seed": 1})
+    ended = weights(train(further, objects, tmp_path / "second", lambda row: None))
+    changed = {name for name, tensor in ended.items() if not torch.equal(tensor, start[name])}
+    assert changed
+    assert {name.split(".")[0] for name in changed} == {"pairs"}
+    again = checkpoint.load(further, tmp_path / "second").network
+    assert {n.split(".")[0] for n, p in again.named_parameters() if p.requires_grad} == {"pairs"}
+
+
 def test_a_run_that_was_killed_ends_with_the_weights_it_would_have_had(plan, objects, tmp_path):
     whole = train(plan, objects, tmp_path / "whole", lambda row: None)
 
@@ -201,6 +213,11 @@ def test_the_command_trains_goes_on_and_judges(tmp_path, capfd, monkeypatch):
             ["--start-share", "0.5"],
             "--start-share is the share of a model in the result: name it with --start",
         ),
+        (
+            ["--only", "pairs"],
+            "--only trains some layers of a model that has learnt the others: name it with",
+        ),
+        (["--only", "lines"], "training options: only: "),
         (["--start-share", "1.5"], "training options: start_share: "),
         (["--device", "abacus"], "training options: device: "),
         (["--precision", "int4"], "training options: precision: "),

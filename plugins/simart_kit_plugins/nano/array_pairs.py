@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from simart_kit.arrays import Float32Array
+from simart_kit.arrays import BoolArray, Float32Array
 
-from .scene import AREA, COLOR, FACING, HALF, MARGIN, MIDDLE, NEAR
+from .scene import AREA, COLOR, FACING, FAR, HALF, MARGIN, MIDDLE, NEAR, REACH, WITHIN
 
 
 def pair_numbers(own: Float32Array, gap: Float32Array) -> Float32Array:
@@ -33,6 +33,32 @@ def pair_numbers(own: Float32Array, gap: Float32Array) -> Float32Array:
         ],
         axis=1,
     )
+
+
+def mutual_numbers(numbers: Float32Array) -> Float32Array:
+    """As `pairs.mutual_numbers`."""
+    other = numbers.transpose(0, 1, 3, 2)
+    mutual = np.maximum(numbers, other)
+    mutual[:, WITHIN + 1] = np.minimum(numbers[:, WITHIN], other[:, WITHIN])
+    return mutual
+
+
+def rivalry(own: Float32Array, gap: Float32Array, there: BoolArray) -> Float32Array:
+    """As `pairs.rivalry`."""
+    alike = np.exp(-8 * _distances(own[..., HALF]) - 4 * _distances(own[..., COLOR]))
+    unlike = np.where(there[:, None], 1 - alike, np.float32(np.inf))
+    found = []
+    for distance, most in ((gap, REACH), (_distances(own[..., MIDDLE]), FAR)):
+        farther, away = np.empty_like(distance), np.float32(most) * unlike
+        for piece in range(distance.shape[1]):
+            here = distance[:, piece]
+            others = here[:, None] + away
+            others[:, :, piece] = np.inf
+            farther[:, piece] = here - np.minimum(others.min(axis=2), here)
+        farther /= np.float32(most)
+        other = farther.transpose(0, 2, 1)
+        found += [np.maximum(farther, other), np.minimum(farther, other)]
+    return np.stack(found, axis=1)
 
 
 def _distances(rows: Float32Array) -> Float32Array:

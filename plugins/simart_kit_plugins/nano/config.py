@@ -18,6 +18,8 @@ class NanoConfig(Table):
     hidden: int = Field(default=512, gt=0, le=16_384, description="Channels inside the perceptrons.")
     point_channels: int = Field(default=64, gt=0, description="Channels of a point.")
     choice_channels: int = Field(default=96, gt=0, description="Channels of a joint candidate.")
+    pair_channels: int = Field(default=48, ge=2, le=1024, description="Channels of a pair of pieces.")
+    pair_layers: int = Field(default=2, ge=0, le=64, description="Layers in which pairs look at each other.")
     labels: tuple[str, ...] = Field(default=(), description="What a part may be called; none of these is ''.")
     categories: tuple[str, ...] = Field(default=(), description="What an object may be.")
 

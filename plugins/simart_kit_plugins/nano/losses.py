@@ -9,12 +9,15 @@ from torch import Tensor
 from torch.nn.functional import binary_cross_entropy_with_logits, cross_entropy, smooth_l1_loss
 
 from .learning import Targets
-from .network import NanoNetwork, PartReading, Reading
+from .network import Batch, NanoNetwork, PartReading, Reading
+from .reading import MOST_PAIRED
 from .truth import KINDS
 
 _PRISMATIC = KINDS.index("prismatic")
 # Less travel than this is none [rad | sides of the object].
 _SHORTEST = 1e-3
+# Pair layers: of what strangers cost a moving piece, the share of those that move too; what the body counts.
+_NEIGHBOURS, _BODY = 0.5, 0.3
 _WEIGHTS = {
     "together": 1.0,
     "moves": 0.5,
@@ -28,6 +31,7 @@ _WEIGHTS = {
     "near": 0.5,
     "reach": 0.2,
     "carrier": 0.2,
+    "paired": 1.0,
 }
 
 
@@ -44,8 +48,8 @@ class NanoLosses:
     total: Tensor
 
 
-def losses(model: NanoNetwork, reading: Reading, targets: Targets) -> NanoLosses:
-    """All terms for a batch."""
+def losses(model: NanoNetwork, batch: Batch, reading: Reading, targets: Targets) -> NanoLosses:
+    """All terms for a batch that was read."""
     read = model.parts(reading.tokens, targets.owner, targets.share, targets.numbers, targets.real)
     real, whole = targets.part >= 0, targets.category >= 0
     terms = {
@@ -58,24 +62,60 @@ def losses(model: NanoNetwork, reading: Reading, targets: Targets) -> NanoLosses
         if whole.any()
         else reading.size.sum() * 0,
         **_of_parts(model, read, targets),
+        "paired": _paired(model, batch, reading, targets),
     }
     total = torch.stack([_WEIGHTS[name] * term for name, term in terms.items()]).sum()
     return NanoLosses(terms, total)
 
 
 def _together(logits: Tensor, part: Tensor) -> Tensor:
-    """Cross-entropy over pairs of pieces; of each piece, partners and strangers count alike."""
+    """Cross-entropy over pairs of pieces: each object counts alike."""
+    cost, weight = _of_pieces(logits, part)
+    return ((cost * weight).sum(1) / weight.sum(1).clamp(min=1e-6)).mean()
+
+
+def _paired(model: NanoNetwork, batch: Batch, reading: Reading, targets: Targets) -> Tensor:
+    """The same after a look at pairs, of objects of which these are looked at: each part counts alike."""
+    count = batch.there.sum(1)
+    few = count <= MOST_PAIRED
+    if not few.any():
+        return model.pairs.norm.weight.sum() * 0
+    most = int(count[few].max())
+    logits = model.paired(batch, reading, few, most)
+    cost, weight = _of_pieces(logits, targets.part[few, :most], _NEIGHBOURS, _BODY)
+    return (cost * weight).sum() / weight.sum()
+
+
+def _of_pieces(
+    logits: Tensor, part: Tensor, neighbours: float = 0.0, body: float = 1.0
+) -> tuple[Tensor, Tensor]:
+    """(B, S) cost of what is said of each piece's pairs, and what the piece counts.
+
+    Of each piece, partners and strangers cost alike. A body of a hundred pieces must not outweigh a door of
+    one: all pieces of a part count 1 together.
+
+    Args:
+        logits: (B, S, S).
+        part: (B, S) part of each piece; 0 is the body, -1 is padding.
+        neighbours: share of a moving piece's strangers that those have which move as well.
+        body: what it counts for a part that moves.
+    """
     real = part >= 0
     pair = real[:, :, None] & real[:, None, :]
     same = (part[:, :, None] == part[:, None, :]) & pair
     other = pair & ~same
     cost = binary_cross_entropy_with_logits(logits, same.float(), reduction="none")
-    partners = (cost * same).sum(2) / same.sum(2).clamp(min=1)
-    strangers = (cost * other).sum(2) / other.sum(2).clamp(min=1)
-    # A body of a hundred pieces must not outweigh a door of one: each part counts alike.
-    weight = 1 / same.sum(2).clamp(min=1).float()
-    per_object = ((partners + strangers) * weight * real).sum(1) / (weight * real).sum(1).clamp(min=1e-6)
-    return per_object.mean()
+    partners, strangers = _mean(cost, same), _mean(cost, other)
+    if neighbours:
+        moving = other & (part > 0)[:, :, None] & (part > 0)[:, None]
+        share = neighbours * moving.any(2)
+        strangers = (1 - share) * strangers + share * _mean(cost, moving)
+    return partners + strangers, real * torch.where(part > 0, 1.0, body) / same.sum(2).clamp(min=1)
+
+
+def _mean(cost: Tensor, counted: Tensor) -> Tensor:
+    """(B, S) means of (B, S, S) along the last axis, of what counts."""
+    return (cost * counted).sum(2) / counted.sum(2).clamp(min=1)
 
 
 def _of_parts(model: NanoNetwork, read: PartReading, targets: Targets) -> dict[str, Tensor]:

@@ -11,8 +11,9 @@ from torch.nn.functional import gelu
 
 from .config import NanoConfig
 from .evidence import WAY
+from .pair_layers import PairLayers
 from .pairs import pair_numbers
-from .reading import POINT_NUMBERS, PartsRead, PiecesRead
+from .reading import POINT_NUMBERS, PairInputs, PartsRead, PiecesRead
 from .scene import PAIR_NUMBERS, PIECE_NUMBERS
 from .truth import KINDS
 from .ways import WAY_NUMBERS
@@ -77,6 +78,7 @@ class NanoNetwork(nn.Module):
             # What each way counts for the sense in which it opens, and how far it goes: see `PartsRead`.
             self.opening = _perceptron(width, config.choice_channels, WAY_NUMBERS + 3)
             self.carrier = _perceptron(2 * width, config.hidden // 2, 1)
+            self.pairs = PairLayers(config)
 
     def forward(self, batch: Batch) -> Reading:
         """Read objects."""
@@ -105,6 +107,31 @@ class NanoNetwork(nn.Module):
             self.size(whole)[..., 0],
             middle,
         )
+
+    def paired(self, batch: Batch, read: Reading, rows: Tensor, most: int) -> Tensor:
+        """(R, S, S) logits of two pieces being of one part, after a look at all pairs of some objects.
+
+        What was read before learns nothing by it.
+
+        Args:
+            batch: with the objects.
+            read: what was said of it.
+            rows: of the batch; (B,) bool, or (R,) numbers.
+            most: pieces of these at most; what comes after is left out.
+        """
+        with _plain(read.tokens):
+            together: Tensor = self.pairs(
+                PairInputs(
+                    read.tokens[rows, :most].detach().float(),
+                    read.together[rows, :most, :most].detach().float(),
+                    read.moves[rows, :most].detach().float(),
+                    read.kind[rows, :most].detach().float(),
+                    batch.numbers[rows, :most],
+                    batch.gap[rows, :most, :most],
+                    batch.there[rows, :most],
+                )
+            )
+        return together
 
     def _pooled(self, batch: Batch) -> Tensor:
         """(B, S, 2 * point_channels) mean and maximum of what the points of each piece say."""

@@ -10,10 +10,15 @@ import numpy as np
 
 from simart_kit.arrays import BoolArray, Float32Array, IntArray
 
-from .scene import MIDDLE
+from .scene import MIDDLE, PAIR_NUMBERS, RIVALRY_NUMBERS
 from .store import Stored
+from .truth import KINDS
 
 POINT_NUMBERS = 3 + 3 + 6 + 3
+# What pair layers are told of each pair besides its tokens.
+PAIR_WIDTH = PAIR_NUMBERS + RIVALRY_NUMBERS + 3 + len(KINDS)
+# Pairs of more pieces are not looked at: it takes time by the cube, and none of these is trained on.
+MOST_PAIRED = 128
 _STEP = 16
 Values = TypeVar("Values")
 
@@ -60,6 +65,29 @@ class PiecesRead(Generic[Values]):
     category: Values
     size: Values
     middle: Values
+
+
+@dataclass(frozen=True, eq=False)
+class PairInputs(Generic[Values]):
+    """What pair layers are given: what was said of the pieces, and how these lie to each other.
+
+    Attributes:
+        tokens: (B, S, D).
+        together: (B, S, S) logits.
+        moves: (B, S) logits.
+        kind: (B, S, 5) logits.
+        own: (B, S, PIECE_NUMBERS).
+        gap: (B, S, S) least distance of two pieces [sides of the object].
+        there: (B, S) bool, which pieces exist.
+    """
+
+    tokens: Values
+    together: Values
+    moves: Values
+    kind: Values
+    own: Values
+    gap: Values
+    there: Values
 
 
 @dataclass(frozen=True, eq=False)

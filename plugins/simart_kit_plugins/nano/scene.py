@@ -17,9 +17,13 @@ _LEAST = 1e-5
 # Columns of `Pieces.own`.
 MIDDLE, HALF, SPREAD, FACING, COLOR = slice(0, 3), slice(3, 6), slice(6, 12), slice(12, 18), slice(18, 21)
 AREA, FLATNESS = 21, 22
-PIECE_NUMBERS, PAIR_NUMBERS = 23, 13
+PIECE_NUMBERS, PAIR_NUMBERS, RIVALRY_NUMBERS = 23, 13, 4
+# Row of pair numbers that tells how much of one's box is in the other's; the next is the other way round.
+WITHIN = 6
 # Of pairs: how near is near [sides of the object], and by how much boxes that touch overlap.
 NEAR, MARGIN = (0.004, 0.01, 0.03), 0.004
+# Middles so far apart are as far as what looks altogether different [sides of the object].
+FAR = 0.5
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,11 +8,12 @@ import numpy as np
 
 from simart_kit.arrays import BoolArray, Float32Array, FloatArray
 
-from .array_network import ArrayNetwork, sigmoid, softmax
+from .array_layers import sigmoid, softmax
+from .array_network import ArrayNetwork
 from .candidates import SLIDE
 from .cloud import Cloud
 from .examples import Example
-from .reading import rows_of
+from .reading import MOST_PAIRED, PairInputs, PiecesRead, Rows, rows_of
 from .scene import pieces_of
 from .store import stored
 from .turning import VIEWS, turned, turned_evidence
@@ -78,12 +79,13 @@ def say(network: ArrayNetwork, cloud: Cloud, votes: int = VOTES) -> Said:
         cloud, pieces_of(cloud), np.zeros(cloud.count, dtype=np.int64), np.array([True]), (), "", 1.0
     )
     here = stored(nothing)
-    read = network.read(rows_of([turned(here, *view) for view in VIEWS[:votes]]))
+    rows = rows_of([turned(here, *view) for view in VIEWS[:votes]])
+    read = network.read(rows)
     count = cloud.count
     moves, category = sigmoid(read.moves[:, :count]), softmax(read.category)
     return Said(
         _mean(moves),
-        _mean(sigmoid(read.together[:, :count, :count])),
+        _together(network, read, rows, count),
         _mean(softmax(read.label[:, :count])),
         _mean(category),
         (float(np.exp(read.size.mean())), float(np.exp(read.size.std()))),
@@ -92,6 +94,18 @@ def say(network: ArrayNetwork, cloud: Cloud, votes: int = VOTES) -> Said:
         read.tokens,
         read.middle,
     )
+
+
+def _together(network: ArrayNetwork, read: PiecesRead[Float32Array], rows: Rows, count: int) -> FloatArray:
+    """(S, S) chances of pieces to belong together; of few pieces by all pairs, for the mean of the sides."""
+    if count > MOST_PAIRED:
+        return _mean(sigmoid(read.together[:, :count, :count]))
+    said = (read.tokens, read.together, read.moves, read.kind)
+    tokens, together, moves, kind = (values.mean(axis=0, keepdims=True) for values in said)
+    # How pieces lie to each other is the same from all sides.
+    own, gap, there = rows.numbers[:1], rows.gap[:1], rows.there[:1]
+    pairs = network.paired(PairInputs(tokens, together, moves, kind, own, gap, there))
+    return _mean(sigmoid(pairs[:, :count, :count]))
 
 
 def discord(moves: Float32Array, category: Float32Array) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from .config import NanoConfig
 from .evidence import WAY
 from .novelty import LAYERS
-from .reading import POINT_NUMBERS
+from .reading import PAIR_WIDTH, POINT_NUMBERS
 from .scene import PAIR_NUMBERS, PIECE_NUMBERS
 from .truth import KINDS
 from .ways import WAY_NUMBERS
@@ -28,6 +28,7 @@ def weight_shapes(config: NanoConfig) -> dict[str, tuple[int, ...]]:
     }
     for number in range(config.layers):
         shapes |= _layer(f"layers.{number}", config)
+    shapes |= _pairs(config)
     heads = {"left": width, "right": width, "moves": 1, "kind": len(KINDS), "part_kind": len(KINDS)}
     heads |= {"label": len(config.labels) + 1, "category": len(config.categories) + 1, "size": 1}
     for name, outer in (heads | {"asking": choice}).items():
@@ -50,6 +51,20 @@ def _layer(name: str, config: NanoConfig) -> dict[str, tuple[int, ...]]:
         **_linear(f"{name}.answer", width, width),
         **_perceptron(f"{name}.think", width, config.hidden, width),
     }
+
+
+def _pairs(config: NanoConfig) -> dict[str, tuple[int, ...]]:
+    width, own, half = config.channels, config.pair_channels, config.pair_channels // 2
+    shapes = _perceptron("pairs.enter", 2 * half + PAIR_WIDTH, 2 * own, own) | _norm("pairs.norm", own)
+    shapes |= _linear("pairs.together", own, 1)
+    for name in ("product", "difference"):
+        shapes |= _linear(f"pairs.{name}", width, half)
+    for name in (f"pairs.layers.{number}" for number in range(config.pair_layers)):
+        shapes |= _norm(f"{name}.before", own) | _norm(f"{name}.after", own) | _norm(f"{name}.sum", half)
+        shapes |= _linear(f"{name}.side", own, half) | _linear(f"{name}.open", own, half)
+        shapes |= _linear(f"{name}.answer", half, own) | _linear(f"{name}.heed", own, own)
+        shapes |= _perceptron(f"{name}.think", own, 2 * own, own)
+    return shapes
 
 
 def _perceptron(name: str, inner: int, hidden: int, outer: int) -> dict[str, tuple[int, ...]]:

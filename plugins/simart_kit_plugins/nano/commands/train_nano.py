@@ -38,6 +38,10 @@ StartShare = Annotated[
     float | None,
     typer.Option(metavar="X", help="Share of the weights of --start that stays in the result."),
 ]
+Only = Annotated[
+    str | None,
+    typer.Option(metavar="pairs", help="Train these layers of the model of --start, and hold all others."),
+]
 Seed = Annotated[int | None, typer.Option(min=0, metavar="N", help="Decides all that is random.")]
 Device = Annotated[str | None, typer.Option(metavar="cpu|cuda", help="Where to compute; also cuda:N.")]
 Precision = Annotated[str | None, typer.Option(metavar="fp32|bf16", help="Arithmetic of the network.")]
@@ -60,6 +64,7 @@ def train_nano(
     learning_rate: Rate = None,
     start: Start = None,
     start_share: StartShare = None,
+    only: Only = None,
     seed: Seed = None,
     device: Device = None,
     precision: Precision = None,
@@ -85,13 +90,14 @@ def train_nano(
         "learning_rate": learning_rate,
         "start": str(start) if start else None,
         "start_share": start_share,
+        "only": only,
         "seed": seed,
         "device": device,
         "precision": precision,
     }
     with stdout_kept(json):
         plan = _plan({name: value for name, value in changes.items() if value is not None})
-        _check(run, start, start_share, resume, evaluate)
+        _check(run, plan, resume, evaluate)
         scores = _performed(plan, run, processes or os.cpu_count() or 1, evaluate, quiet)
     if json:
         print_json({"ok": True, "run": str(run), "scores": {k: asdict(v) for k, v in scores.items()}})
@@ -112,7 +118,7 @@ def _plan(changes: dict[str, object]) -> TrainingPlan:
         raise BadInputError(f"training options: {told(error)}") from error
 
 
-def _check(run: Path, start: Path | None, start_share: float | None, resume: bool, evaluate: bool) -> None:
+def _check(run: Path, plan: TrainingPlan, resume: bool, evaluate: bool) -> None:
     from ..training import checkpoint
     from ..weights import load_model
 
@@ -122,10 +128,14 @@ def _check(run: Path, start: Path | None, start_share: float | None, resume: boo
         raise BadInputError(f"{run} has no checkpoint to judge: train it first")
     if checkpoint.exists(run) and not (resume or evaluate):
         raise BadInputError(f"{run} has a run already: go on with --resume, or choose another --run")
-    if start_share and not start:
+    if plan.start_share and not plan.start:
         raise BadInputError("--start-share is the share of a model in the result: name it with --start")
-    if start:
-        load_model(start)  # what is wrong with it is told before objects are made
+    if plan.only and not plan.start:
+        raise BadInputError(
+            "--only trains some layers of a model that has learnt the others: name it with --start"
+        )
+    if plan.start:
+        load_model(Path(plan.start))  # what is wrong with it is told before objects are made
 
 
 def _performed(

@@ -75,14 +75,18 @@ def result(state: Progressing, plan: TrainingPlan) -> NanoNetwork:
 
 def _with(network: NanoNetwork, plan: TrainingPlan) -> Progressing:
     network = network.to(plan.device)
+    if plan.only:
+        network.requires_grad_(False)
+        network.get_submodule(plan.only).requires_grad_(True)
     optimiser = optimiser_of(network, plan)
     return Progressing(network, {n: t.clone() for n, t in network.state_dict().items()}, optimiser)
 
 
 def optimiser_of(network: NanoNetwork, plan: TrainingPlan) -> AdamW:
     """AdamW with all its state there from the beginning, so that every state has the same names."""
-    decayed = [p for p in network.parameters() if p.ndim > 1]
-    others = [p for p in network.parameters() if p.ndim <= 1]
+    learning = [p for p in network.parameters() if p.requires_grad]
+    decayed = [p for p in learning if p.ndim > 1]
+    others = [p for p in learning if p.ndim <= 1]
     groups = [
         {"params": decayed, "weight_decay": plan.weight_decay},
         {"params": others, "weight_decay": 0.0},

@@ -113,7 +113,7 @@ def _step(state: Progressing, plan: TrainingPlan, some: Sequence[Stored]) -> dic
     device = torch.device(plan.device).type
     with torch.autocast(device, torch.bfloat16, enabled=plan.precision == "bf16"):
         reading = network(batch)
-        found = losses(network, reading, targets)
+        found = losses(network, batch, reading, targets)
     state.optimiser.zero_grad()
     torch.autograd.backward(found.total)
     norm = clip_grad_norm_(network.parameters(), plan.gradient_clip)

@@ -55,6 +55,9 @@ class TrainingPlan(Table):
     start_share: float = Field(
         default=0, ge=0, lt=1, description="Share of the weights of `start` in those of the result."
     )
+    only: Literal["", "pairs"] = Field(
+        default="", description="What is trained, all else held: the pair layers; everything by default."
+    )
     device: str = Field(default="cpu", pattern=r"^(cpu|cuda(:[0-9]+)?)$", description="cpu or cuda:N.")
     network: NanoConfig = Field(
         default=NanoConfig(), description="Sizes; labels and categories are filled in."

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import torch
+from torch import Tensor
 
 from ..learning import Targets, batch_of, targets_of
 from ..losses import losses
-from ..network import NanoNetwork, Reading
+from ..network import Batch, NanoNetwork, Reading
+from ..reading import MOST_PAIRED
 from ..store import Stored
 
 _AT_ONCE = 16
@@ -49,8 +51,8 @@ def score(network: NanoNetwork, examples: Sequence[Stored]) -> NanoScore:
         some = ordered[first : first + _AT_ONCE]
         batch, targets = batch_of(some).to(device), targets_of(some, network.config).to(device)
         reading = network(batch)
-        total = losses(network, reading, targets).total.item()
-        rows += [[total, *row] for row in _rows(network, reading, targets)]
+        total = losses(network, batch, reading, targets).total.item()
+        rows += [[total, *row] for row in _rows(network, batch, reading, targets)]
     if not rows:
         nothing = float("nan")
         return NanoScore(0, nothing, nothing, nothing, nothing, nothing, nothing)
@@ -63,7 +65,7 @@ def score(network: NanoNetwork, examples: Sequence[Stored]) -> NanoScore:
     return NanoScore(len(rows), loss, means[0], means[1], kind, candidate, means[2])
 
 
-def _rows(network: NanoNetwork, reading: Reading, targets: Targets) -> list[list[float]]:
+def _rows(network: NanoNetwork, batch: Batch, reading: Reading, targets: Targets) -> list[list[float]]:
     """Of each object: pairs, pieces, category right; parts asked for kind, right; for candidates, right."""
     read = network.parts(reading.tokens, targets.owner, targets.share, targets.numbers, targets.real)
     kind = read.kind.argmax(1) == targets.part_kind
@@ -74,7 +76,8 @@ def _rows(network: NanoNetwork, reading: Reading, targets: Targets) -> list[list
         real = targets.part[k] >= 0
         part = targets.part[k][real]
         same = part[:, None] == part[None]
-        pairs = ((reading.together[k][real][:, real] > 0) == same).float().mean().item()
+        together = _together(network, batch, reading, k, len(part))
+        pairs = ((together > 0) == same).float().mean().item()
         pieces = ((reading.moves[k][real] > 0) == (part > 0)).float().mean().item()
         category = float(reading.category[k].argmax() == targets.category[k])
         mine = targets.owner == k
@@ -82,3 +85,10 @@ def _rows(network: NanoNetwork, reading: Reading, targets: Targets) -> list[list
         told += [(mine & asked).sum().item(), (first & mine & asked).sum().item()]
         rows.append([pairs, pieces, category, *told])
     return rows
+
+
+def _together(network: NanoNetwork, batch: Batch, reading: Reading, row: int, count: int) -> Tensor:
+    """(S, S) logits of the pieces of an object, after a look at their pairs if these are looked at."""
+    if count > MOST_PAIRED:
+        return reading.together[row, :count, :count]
+    return network.paired(batch, reading, torch.tensor([row]), count)[0]
