@@ -77,7 +77,8 @@ def read_model(folder: Path) -> StoredModel:
     if wrong:
         raise BadInputError(
             f"{folder / WEIGHTS_FILE} is not of the network in {CONFIG_FILE} beside it: they are "
-            f"of different ones ({shorten(wrong, 160)}): copy both files from one folder"
+            f"of different ones ({shorten(wrong, 160)}): copy both files from one folder, "
+            "or train it again where an older version made it"
         )
     numbers = [weights.pop(name) for name in of_statistics if name in weights]
     return StoredModel(file.config, file.knowledge, weights, TokenStatistics(*numbers) if numbers else None)
