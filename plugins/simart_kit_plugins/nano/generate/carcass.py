@@ -131,11 +131,14 @@ def shelves(made: Assembly, dice: Dice, opening: Opening, look: Look, recess: fl
         made.fix([plates], dice.weighted([(5, look), (1, looks.glass(dice))]))
 
 
-def decoy(made: Assembly, dice: Dice, style: Style, opening: Opening) -> None:
-    """A front that looks as if it opened."""
-    leaf = leaves.drawer if opening.height < 0.6 * opening.width else _any_door
-    shown = leaf(dice, style, opening)
-    made.fix_leaf(shown)
+def decoy(made: Assembly, dice: Dice, style: Style, opening: Opening, look: Look) -> None:
+    """A front that looks as if it opened, on a board that closes the room behind it."""
+    low = opening.height < 0.6 * opening.width
+    shown = leaves.drawer_front(style, opening) if low else _any_door(dice, style, opening).surfaces
+    for one in shown:
+        made.fix([one.triangles], one.look)
+    y = opening.front + style.reach
+    made.fix([between((opening.left, y, opening.low), (opening.right, y + 0.012, opening.high))], look)
 
 
 def fill(made: Assembly, dice: Dice, style: Style, opening: Opening, kind: str, look: Look) -> None:
@@ -158,7 +161,7 @@ def fill(made: Assembly, dice: Dice, style: Style, opening: Opening, kind: str, 
             made.add(leaves.drawer(dice, style, cell))
         return
     if kind == "decoy":
-        decoy(made, dice, style, opening)
+        decoy(made, dice, style, opening, look)
         return
     for leaf in _closing(dice, style, opening, kind):
         made.add(leaf)

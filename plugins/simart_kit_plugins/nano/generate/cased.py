@@ -93,15 +93,12 @@ def _outline(dice: Dice, long: float, wide: float) -> FloatArray:
 def _case_handle(
     dice: Dice, kit: Assembly, metal: Look, line: FloatArray, rim: FloatArray, x: float, z: float
 ) -> None:
-    """A handle on the front of an instrument's case, which mostly swings."""
+    """A handle on the front of an instrument's case, which swings."""
     y = min(float(np.interp(place, line[:14, 0], rim[:14, 1])) for place in (x, x - 0.06, x + 0.06))
     ears = np.array([x, y - 0.008, z])
     kit.fix([box((0.012, 0.016, 0.014), ears + [s * 0.065, 0.003, 0]) for s in (-1, 1)], metal)
-    if dice.chance(0.7):
-        grip = turned(_bow(0.058, 0.045, 0.006), rotation(RIGHT, dice.pick((0.0, 1.3))))
-        kit.add("handle", hinge(ears, LEFT, 1.2, -1.3), [(moved(grip, ears), DARK)])
-    else:
-        kit.fix(moved(_bow(0.058, 0.045, 0.006), ears), DARK)
+    grip = turned(_bow(0.058, 0.045, 0.006), rotation(RIGHT, dice.pick((0.0, 1.3))))
+    kit.add("handle", hinge(ears, LEFT, 1.2, -1.3), [(moved(grip, ears), DARK)])
 
 
 def _instrument_case(dice: Dice) -> list[Body]:

@@ -14,13 +14,15 @@ from ...shapes.dice import Dice
 from ...shapes.placing import rotation
 from . import fitted_arms, fitted_covers, fitted_leaves, fitted_mechanisms, fittings, looks
 from .assembling import Assembly
-from .assembly import MOST_BODIES, until_moving
+from .assembly import until_moving
 from .category import Category
 from .chassis import FRAMES, Site
 from .fittings import Fitting, Room
 from .objects import Body, Look
 
 NAME = "contraption"
+# Bodies at most, the root included.
+_MOST = 24
 
 _FITTINGS: Sequence[tuple[float, Fitting]] = (
     (2, fittings.knob),
@@ -118,7 +120,7 @@ def _fit(dice: Dice, kit: Assembly, group: Sequence[Site], made: Fitting, colors
     for site in group:
         there = site.turned(quarters)
         fitted = made(Dice(seed), Room(there.wide, there.high, *colors))
-        if kit.count + fitted.count - 1 > MOST_BODIES:
+        if kit.count + fitted.count - 1 > _MOST:
             return
         kit.graft(fitted, there.origin, there.turn)
 

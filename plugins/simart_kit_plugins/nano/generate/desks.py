@@ -126,7 +126,8 @@ def _between_ends(
     if kind == "apron":
         made.fix([between((left, -y + 0.02, high - tall), (right, -y + 0.04, high))], look)
         if dice.chance(0.4):
-            made.fix_leaf(leaves.drawer(dice, style, replace(room, front=-y + 0.02, depth=0.06)))
+            for one in leaves.drawer_front(style, replace(room, front=-y + 0.02)):
+                made.fix([one.triangles], one.look)
         return
     count = 1 if room.width < 0.7 and dice.chance(0.7) else dice.whole(1, 3)
     for cell in room.columns([1.0] * count, slim):

@@ -98,22 +98,16 @@ def _hair_dryer(dice: Dice) -> list[Body]:
 
 
 def _dryer_handle(dice: Dice, kit: Assembly, pin: FloatArray, shell: Look) -> None:
-    """A handle below the barrel, that folds or is fixed, with switches and at times a button in front."""
+    """A handle below the barrel, that folds, with switches and at times a button in front."""
     rings = [(0, 0, -0.017), (0.038, 0.045, -0.017), (0.03, 0.036, -0.13), (0, 0, -0.13)]
     grip = [
         box((0.026, 0.03, 0.02), (0, 0, -0.006)),
         loft(rounded(0.4, 0.8, 4), rings),
         lying(0.006, 0.05),
     ]
-    folds = dice.chance(0.6)
     start = dice.between(0.05, 0.2)
     yaw = rotation(RIGHT, start)
-    handle = 0
-    pieces = moved(turned(grip, yaw), pin)
-    if folds:
-        handle = kit.add("handle", hinge(pin, LEFT, 1.3 + start), [(pieces, shell)])
-    else:
-        kit.fix(pieces, shell)
+    handle = kit.add("handle", hinge(pin, LEFT, 1.3 + start), [(moved(turned(grip, yaw), pin), shell)])
     for k in range(dice.whole(1, 2)):
         spot = pin + yaw @ np.array([0, -0.0225, -0.045 - 0.035 * k])
         key = [box((0.016, 0.006, 0.014), (0, -0.0035, 0)), box((0.014, 0.004, 0.003), (0, -0.008, 0.003))]

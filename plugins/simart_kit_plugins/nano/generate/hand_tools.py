@@ -24,12 +24,6 @@ def _loop(middle: ArrayLike, across: float, along: float, thick: float, width: f
     return ribbon(path + np.asarray(middle), width, thick)
 
 
-def _lying(dice: Dice, whole: Rig) -> list[Body]:
-    """Flat on the table any way round, or hung upright."""
-    yaw = _askew(dice)
-    return whole.bodies(yaw @ rotation(RIGHT, -np.pi / 2) if dice.chance(0.25) else yaw)
-
-
 def _held(dice: Dice, whole: Rig) -> list[Body]:
     """As a hand holds them: the arm that moves above the one that stays, which looks the same."""
     return whole.bodies(_askew(dice) @ rotation((0, 1, 0), np.pi / 2))
@@ -77,7 +71,8 @@ def _scissors(dice: Dice) -> list[Body]:
             surface([latch], grip),
             parent=moving,
         )
-    return _lying(dice, whole)
+    # Flat on the table: the arm that moves is the upper one.
+    return whole.bodies(_askew(dice))
 
 
 def _arm(jaw: FloatArray, handle: FloatArray, thick: float, layer: int, disc: float) -> tuple[Pieces, Pieces]:

@@ -27,7 +27,7 @@ def _robot_arm(dice: Dice) -> list[Body]:
         [cylinder(0.1, 0.12, 18) + at + [0, 0, 0.062], box((0.5 * thick, 0.12, 0.12), at + [0, 0, 0.16])],
         paint,
     )
-    parent = whole.add("turntable", hinge(at, UP, 2.9, -2.9) if dice.chance(0.6) else spin(at, UP), column)
+    parent = whole.add("turntable", hinge(at, UP, 2.9, -2.9), column)
     at, angle, side = at + [0, 0, 0.18], dice.between(-0.3, 0.4), 1
     for _ in range(count):
         long = dice.between(0.18, 0.45)
@@ -320,7 +320,7 @@ def _windmill(dice: Dice, radius: float, count: int, look: Look) -> list[Body]:
     cap = superquadric((0.55 * radius, 0.6 * radius, 0.35 * radius), 0.8, 0.8, 8) + at + [0, 0, 0.17 * radius]
     yaw = whole.add(
         "cap",
-        hinge(at, UP, 3.1, -3.1) if dice.chance(0.5) else spin(at, UP),
+        spin(at, UP),
         surface([cap], looks.wood(dice)),
     )
     hub = at + [0, -0.4 * radius, 0.17 * radius]

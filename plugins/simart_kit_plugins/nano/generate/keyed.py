@@ -16,6 +16,7 @@ from .assembling import Assembly, disc, pull
 from .carcass import posts
 from .category import Category
 from .objects import Body, Look, hinge, slide, spin
+from .piano_keys import key_row
 from .rigging import ball_knob, lying, profile
 
 _DARK, _IVORY = Look("plastic", (28, 28, 30)), Look("plastic", (240, 236, 224))
@@ -42,20 +43,8 @@ def _turn(
 
 
 def _keys(kit: Assembly, spot: tuple[float, float, float], count: int, pitch: float, long: float) -> None:
-    """Keys that tip about their back ends; black ones lie between narrow ones, and are part of wide ones."""
-    (x, y, z), thick, cut, wide = spot, min(0.02, 0.5 * pitch), 0.29 * pitch, pitch >= 0.06
-    dark = [0 < k < count and not wide and (count + k) % 7 not in (2, 6) for k in range(count + 1)]
-    black = box((2 * cut - 0.003, 0.61 * long, 1.6 * thick), (0, -0.305 * long, 0.8 * thick))
-    for k in range(count):
-        left, back = x + (k - count / 2) * pitch, y + long
-        low, high = (cut if dark[k] else 0.0012), pitch - (cut if dark[k + 1] else 0.0012)
-        white = [between((0.0012, -long, 0), (pitch - 0.0012, -0.63 * long, thick))]
-        white.append(between((low, -0.64 * long, 0), (high, 0, thick)))
-        on = [black * [0.6, 1, 1] + [left + pitch / 2, back, z]] if wide else []
-        motion = hinge((left, back, z + thick), _DOWN, 0.05)
-        kit.add("key", motion, [(moved(white, (left, back, z)), _IVORY), (on, _DARK)])
-        if dark[k + 1]:
-            kit.add("key", motion, [([black + [left + pitch, back, z]], _DARK)])
+    for motion, parts in key_row(spot, count, pitch, long, _IVORY, _DARK):
+        kit.add("key", motion, parts)
 
 
 def _controls(dice: Dice, wide: float, high: float, most: int) -> Assembly:

@@ -89,14 +89,20 @@ def flap(dice: Dice, style: Style, opening: Opening, side: int, name: str = "fla
     return Leaf(name, "flap", tuple(pieces), hinge(pin, (-side, 0, 0), upper))
 
 
-def drawer(dice: Dice, style: Style, opening: Opening, name: str = "drawer") -> Leaf:
-    """A front with its handle and mostly a box behind it."""
+def drawer_front(style: Style, opening: Opening) -> list[Surface]:
+    """What shows of a drawer: a panel with a handle, or two."""
     face = Face.of(style, opening)
     pieces = panel(style, face)
     twice = face.width > 0.45 and face.width > 2.5 * face.height and style.seed % 3 == 0
     rise = face.height * Dice((style.seed, 5)).pick((0.0, 0.0, 0.3))
     for x in (-face.width / 4, face.width / 4) if twice else (0.0,):
         pieces += grip(style, face, x, rise, False, min(0.6 * face.width, 2.5 * face.height))
+    return pieces
+
+
+def drawer(dice: Dice, style: Style, opening: Opening, name: str = "drawer") -> Leaf:
+    """A front with its handle and mostly a box behind it."""
+    pieces = drawer_front(style, opening)
     deep = (opening.depth - style.reach) * dice.between(0.8, 0.98)
     if dice.chance(0.9):
         pieces.append(surface(_tray(dice, style, opening, deep), style.inner))

@@ -131,19 +131,15 @@ def _truck(dice: Dice) -> list[Body]:
         between((-x, cab + 0.08, floor), (x, tail, floor + wall)),
         between((-x, cab + 0.08, floor), (x, cab + 0.08 + wall, floor + high * 1.1)),
     ]
-    fixed_sides = dice.chance(0.6)
     side = box(
         (wall, bed_long - 2 * wall - 0.01, high - wall), (0, (tail + cab + 0.08) / 2, floor + wall + high / 2)
     )
-    if fixed_sides:
-        pieces += moved([side], (x - wall / 2, 0, 0)) + moved([side], (-x + wall / 2, 0, 0))
     rear = (0, tail - 0.1, floor)
     bed = whole.add("tipper bed", hinge(rear, LEFT, dice.between(0.7, 1.0)), surface(pieces, paint))
-    if not fixed_sides:
-        for name, s in (("left", -1), ("right", 1)):
-            pin = (s * x, 0, floor + wall + 0.01)
-            leaf = surface(moved([side], (s * (x - wall / 2), 0, 0.005)), paint)
-            whole.add("side gate", hinge(pin, (0, s, 0), 2.8), leaf, parent=bed, name=f"{name}_side_gate")
+    for name, s in (("left", -1), ("right", 1)):
+        pin = (s * x, 0, floor + wall + 0.01)
+        leaf = surface(moved([side], (s * (x - wall / 2), 0, 0.005)), paint)
+        whole.add("side gate", hinge(pin, (0, s, 0), 2.8), leaf, parent=bed, name=f"{name}_side_gate")
     gate = box(
         (wide - 0.02 - 2 * wall, wall, high - wall - 0.01), (0, tail - wall / 2, floor + wall + high / 2)
     )

@@ -175,8 +175,7 @@ def _mixing_bowl(dice: Dice, kit: Assembly, size: _Frame, holder: int, high: flo
     if dice.chance(0.5):
         bow = moved(ear(0.93 * m, 0.45 * tall, 0.85 * tall, 0.05, 0.006), (0, 0, size.floor))
         shape += turned(bow, rotation(UP, dice.pick((0.0, np.pi, 0.4, -0.5))))
-    motion = free() if dice.chance(0.6) else hinge((0, 0, 0), UP, dice.between(0.3, 0.7))
-    kit.add("bowl", motion, [(shape, look)])
+    kit.add("bowl", free(), [(shape, look)])
 
 
 def _bowl_lift(dice: Dice, kit: Assembly, size: _Frame, metal: Look) -> int:

@@ -118,8 +118,7 @@ def _jug_lid(
             cylinder(radius + 0.004, 0.005, 20) + [0, 0, top + 0.025],
         ]
         cap += [box((1.6 * radius, 0.005, 0.01), (0, 0, top + 0.031))] if dice.chance(0.5) else []
-        twist = free() if dice.chance(0.7) else hinge((0, 0, top), UP, dice.between(0.5, 1.2))
-        kit.add("cap", twist, [(cap, looks.plastic(dice))], lid)
+        kit.add("cap", free(), [(cap, looks.plastic(dice))], lid)
 
 
 def _food_processor(dice: Dice) -> list[Body]:
@@ -133,8 +132,7 @@ def _food_processor(dice: Dice) -> list[Body]:
     if dice.chance(0.7):
         bow = moved(ear(radius, 0.2 * tall, 0.85 * tall, 0.045, 0.008), (0, 0, floor))
         bow = turned(bow, rotation(UP, dice.pick((np.pi / 2, -np.pi / 2, 1.1))))
-    motion = free() if dice.chance(0.6) else hinge((0, 0, 0), UP, dice.between(0.25, 0.6))
-    bowl = kit.add("bowl", motion, [(shape, clear), (bow, dark)])
+    bowl = kit.add("bowl", free(), [(shape, clear), (bow, dark)])
     spot, metal = (0, 0, floor + 0.004), looks.metal(dice)
     if dice.chance(0.65):
         post = [revolve([(0, 0), (0.02, 0), (0.014, 0.7 * tall), (0, 0.7 * tall)], 16)]
@@ -177,8 +175,7 @@ def _chute_lid(dice: Dice, kit: Assembly, bowl: int, radius: float, level: float
         )
     ]
     lid.append(ring(hole, hole + wall, top - 0.001, top + long, 22) + off)
-    motion = free() if dice.chance(0.6) else hinge((0, 0, 0), UP, dice.between(0.3, 0.8))
-    cover = kit.add("lid", motion, [(lid, look)], bowl)
+    cover = kit.add("lid", free(), [(lid, look)], bowl)
     raised = dice.pick((0.0, 0.0, 0.3, 0.6)) * long
     push = cylinder(hole - 0.0012, long, 20) + [0, 0, top + 0.0015 + long / 2 + raised]
     head = cylinder(hole + wall + dice.between(0.0, 0.006), 0.008, 20) + [0, 0, top + long + 0.0055 + raised]
@@ -243,8 +240,7 @@ def _stick_blender(dice: Dice) -> list[Body]:
         (0.7 * thick, long),
     ]
     inner = [(0, long), (0, 0.024), (0.5 * bell, 0.022), (bell - 0.003, 0.008), (bell - 0.003, 0), (bell, 0)]
-    motion = free() if dice.chance(0.5) else hinge((0, 0, 0), UP, dice.between(0.5, 1.2))
-    shaft = kit.add("shaft", motion, [([revolve([*outer, *inner], 22)], metal)])
+    shaft = kit.add("shaft", free(), [([revolve([*outer, *inner], 22)], metal)])
     blade = [box((1.5 * bell, 0.007, 0.0015), (0, 0, 0.01)), cylinder(0.003, 0.017, 8) + [0, 0, 0.0175]]
     kit.add("blade", spin((0, 0, 0.01), UP), [(blade, looks.metal(dice))], shaft)
     return kit.done()

@@ -102,10 +102,7 @@ def _lid_fittings(
         spot, radius = np.array([0, dice.between(0.2, 0.28) * deep, top]), dice.between(0.016, 0.026)
         kit.fix([cylinder(1.25 * radius, 0.6 * rise, 20) + spot - [0, 0, 0.3 * rise - 0.003]], DARK, lid)
         cap = [cylinder(radius, 0.012, 20) + [0, 0, 0.0098], box((0.8 * radius, 0.003, 0.004), (0, 0, 0.017))]
-        if dice.chance(0.7):
-            kit.add("cap", free(), [(moved(cap, spot), look)], lid)
-        else:
-            kit.fix(moved(cap, spot - [0, 0, 0.002]), look, lid)
+        kit.add("cap", free(), [(moved(cap, spot), look)], lid)
 
 
 def _carrying_bow(dice: Dice, kit: Assembly, size: tuple[float, float, float]) -> None:

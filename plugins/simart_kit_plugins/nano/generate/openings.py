@@ -238,10 +238,6 @@ def _sliding(dice: Dice, kit: Assembly, size: _Size) -> None:
                 [disc(0.025, 0.004, 14)], (x + (-1 if k % 2 else 1) * 0.42 * width, track - thick, 1.0)
             )
             parts.append((pull, metal))
-        if k == count - 1 and count == 3 and dice.chance(0.4):
-            for pieces, look in parts:
-                kit.fix(pieces, look)
-            continue
         way = 1 if k < count / 2 - 0.5 else -1
         kit.add("sliding door", slide((way, 0, 0), width * dice.between(0.85, 0.95)), parts)
 

@@ -49,7 +49,7 @@ _FILLINGS = ("bars", "slats", "boards", "lattice", "pane")
 
 
 def _screen(dice: Dice) -> list[Body]:
-    """A folding screen: leaves that hang one on the other, bent to and fro."""
+    """A folding screen: leaves that hang one on the other, bent to and fro; the first stands on feet."""
     kit, coat = Assembly("leaf"), looks.wood(dice) if dice.chance(0.6) else looks.painted_metal(dice)
     count, wide, high = dice.whole(2, 5), dice.between(0.35, 0.6), dice.between(1.2, 2.0)
     bar, low, style = dice.between(0.02, 0.045), dice.between(0.0, 0.15), dice.pick(_FILLINGS)
@@ -58,7 +58,9 @@ def _screen(dice: Dice) -> list[Body]:
     if low > 0.04:
         pieces += [between((x, -bar / 2, 0), (x + bar, bar / 2, low)) for x in (0.0, wide - bar)]
     inside = _filling(dice, style, wide, low, high, bar)
-    kit.fix(pieces, coat)
+    # Which end of a chain stays is anybody's guess else.
+    feet = [between((s * wide - bar, -0.15, -0.03), (s * wide + bar, 0.15, 0)) for s in (0.2, 0.8)]
+    kit.fix([*pieces, *feet], coat)
     kit.fix(inside, fill)
     metal, parent, x = looks.metal(dice), 0, wide
     shown, levels = dice.chance(0.7), np.array([0.15, 0.5, 0.85]) * high

@@ -1,4 +1,4 @@
-"""Pianos: upright and grand, with key lids, top lids, pedals and some keys that go down."""
+"""Pianos: upright and grand, with key lids, top lids, pedals and keys that go down."""
 
 from __future__ import annotations
 
@@ -12,37 +12,28 @@ from ...shapes.dice import Dice
 from ...shapes.fronts import front
 from ...shapes.legs import leg
 from ...shapes.placing import moved
-from ...shapes.primitives import between, box, boxes, sheet
+from ...shapes.primitives import between, box, sheet
 from . import looks
 from .assembly import Assembly, Leaf
 from .carcass import board
 from .category import Category
 from .objects import Body, Look, Motion, hinge, surface
+from .piano_keys import DIP, key_row
 
 
 def _piano(dice: Dice) -> Sequence[Body]:
     return dice.weighted([(5, _upright), (3, _grand)])(dice)
 
 
-def _keys(made: Assembly, dice: Dice, width: float, front_y: float, level: float, look: Look) -> None:
-    """White and black keys on a key bed; the white ones of a short keyboard move."""
+def _keys(made: Assembly, dice: Dice, width: float, front_y: float, level: float) -> None:
+    """White and black keys above a key bed, so high that they can go down."""
     count = dice.pick((52, 45, 36, 22)) if width > 0.9 else dice.whole(8, 22)
-    step, long = width / count, min(0.15, 0.13 * width + 0.02)
+    long = min(0.15, 0.13 * width + 0.02)
     ivory, ebony = looks.ceramic(dice), looks.darker(looks.rubber(dice), 0.5)
-    for k in range(count):
-        x = (k + 0.5) * step - width / 2
-        white = box((0.9 * step, long, 0.018), (x, front_y + long / 2, level + 0.009))
-        if count < 30:
-            motion = hinge((x, front_y + long, level + 0.018), (1, 0, 0), 0.055)
-            made.add(Leaf("key", "key", (surface([white], ivory),), motion))
-        else:
-            made.fix([white], ivory)
-    blacks = [
-        ((k + 1) * step - width / 2, front_y + 0.68 * long, level + 0.024)
-        for k in range(count - 1)
-        if k % 7 not in (2, 6)
-    ]
-    made.fix([boxes((0.5 * step, 0.62 * long, 0.012), blacks)], ebony)
+    spot = (0.0, front_y, level + DIP * long + 0.002)
+    for motion, parts in key_row(spot, count, width / count, long, ivory, ebony):
+        surfaces = tuple(surface(pieces, look) for pieces, look in parts if pieces)
+        made.add(Leaf("key", "key", surfaces, motion))
 
 
 def _pedals(made: Assembly, dice: Dice, y: float, level: float) -> None:
@@ -79,7 +70,7 @@ def _upright(dice: Dice) -> Sequence[Body]:
     flip = np.array([-1, 1, 1])
     one = legs + [-x + 0.06 * scale, -y - reach + 0.06 * scale, bed - 0.05 * scale]
     made.fix([one, one * flip], look)
-    _keys(made, dice, 2 * inner * 0.94, -y - reach + 0.02 * scale, bed, look)
+    _keys(made, dice, 2 * inner * 0.94, -y - reach + 0.02 * scale, bed)
     made.fix(
         [
             box(
@@ -105,7 +96,7 @@ def _key_lid(
     """Closed over the keys; it turns about its back edge."""
     thick, long = 0.015 * scale, dice.between(0.16, 0.19) * scale
     # Above the black keys, which are as high on a toy.
-    high = bed + 0.034 + 0.012 * scale
+    high = bed + 0.042 + 0.012 * scale
     pin = np.array([0.0, min(back + 0.03 * scale, wall - thick - 0.002), high])
     plate = between((-inner + 0.002, -long, 0), (inner - 0.002, 0, thick))
     lip = between((-inner + 0.002, -long, -0.012 * scale), (inner - 0.002, -long + thick, 0))
@@ -174,7 +165,7 @@ def _grand(dice: Dice) -> Sequence[Body]:
         ],
         look,
     )
-    _keys(made, dice, width - 2 * side - 0.02, near - reach + 0.02, bed + 0.02, look)
+    _keys(made, dice, width - 2 * side - 0.02, near - reach + 0.02, bed + 0.02)
     for x, y in ((-0.42 * width, near + 0.02), (0.42 * width, near + 0.02), (-0.2 * width, 0.38 * long)):
         made.fix([leg(Dice(turned_leg), bed - 0.02, 0.11) + [x, y, bed - 0.02]], look)
     made.fix(

@@ -279,7 +279,7 @@ def _slot(made: Assembly, dice: Dice, width: float, near: float, level: float, s
 
 
 def _lockers(dice: Dice) -> Sequence[Body]:
-    """A block of letter boxes, each with a door and a lock; some doors only look like it."""
+    """A block of letter boxes, each with a door, some with locks."""
     across, up = dice.whole(1, 4), dice.whole(1, 5)
     cell, high, depth = dice.between(0.2, 0.35), dice.between(0.1, 0.3), dice.between(0.15, 0.4)
     look, made = looks.painted_metal(dice), Assembly("body")
@@ -325,10 +325,7 @@ def _locker(made: Assembly, dice: Dice, style: Style, room: Opening, side: int, 
         leaf = leaf.with_children(
             leaves.lock(dice, face, style, -side * 0.35 * face.width, -0.25 * face.height)
         )
-    if made.bodies_left < 2 or dice.chance(0.05):
-        made.fix_leaf(leaf)
-    else:
-        made.add(leaf)
+    made.add(leaf)
 
 
 CATEGORIES: tuple[Category, ...] = (Category("safe", _safe), Category("mailbox", until_moving(_mailbox)))

@@ -122,11 +122,7 @@ def _cistern(made: Assembly, dice: Dice, wall: float, high: float, white: Look) 
     lid = Leaf("cistern_lid", "cistern lid", (surface([cover], white),), free())
     metal = dice.pick((looks.metal(dice), white))
     lever = dice.chance(0.55)
-    if dice.chance(0.7):
-        number = made.add(lid)
-    else:
-        made.fix_leaf(lid)
-        number = 0
+    number = made.add(lid)
     if lever:
         made.add(_lever(dice, width, y - deep / 2, low + 0.8 * tall, metal))
         return

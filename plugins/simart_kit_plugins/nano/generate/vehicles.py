@@ -100,10 +100,10 @@ def _roof(whole: Rig, car: Shell, paint: Look, glass: Look, hatch: bool) -> None
 
 
 def _car_doors(dice: Dice, whole: Rig, car: Shell, paint: Look) -> None:
-    """Two or four doors; those behind may be part of the body."""
+    """Four doors, or two where there is no room for those behind."""
     first, middle, last = car.posts
     glass, metal = looks.glass(dice), looks.metal(dice)
-    handle_z, framed, four = car.belt - 0.12, dice.chance(0.7), dice.chance(0.7)
+    handle_z, framed = car.belt - 0.12, dice.chance(0.7)
     for name, s in (("left", -1), ("right", 1)):
         for place, a, b in (("front", first, middle), ("rear", middle, last)):
             if b - a < 0.3:
@@ -127,9 +127,6 @@ def _car_doors(dice: Dice, whole: Rig, car: Shell, paint: Look) -> None:
                 ]
                 bars.append(rod((0, inner[1], high), (0, inner[2], high), 0.015, 4))
                 surfaces.append(surface(moved(turned(bars, lean), (x, 0, car.belt)), paint))
-            if place == "rear" and not four:
-                whole.dress(0, *surfaces)
-                continue
             if place == "front":
                 surfaces.append(
                     surface([box((0.16, 0.08, 0.12), (x + s * 0.1, a + 0.2, car.belt + 0.08))], metal)
@@ -156,9 +153,6 @@ def _bonnet(dice: Dice, whole: Rig, car: Shell, paint: Look) -> None:
         car.wide - 0.01,
     )
     pieces = surface([pane + [0, 0, front]], paint)
-    if dice.chance(0.2):
-        whole.dress(0, pieces)
-        return
     whole.dress(
         0,
         surface(

@@ -73,11 +73,8 @@ def _vise(dice: Dice) -> list[Body]:
         box((wide, 0.16 * long, 0.42 * high), (0, 0.07 * long, 0.03 + 0.75 * high)),
     ]
     body.append(box((0.6 * wide, 0.2 * long, 0.08 * high), (0, 0.28 * long, 0.03 + 0.58 * high)))
-    if dice.chance(0.5):
-        whole = Rig(surface([foot], paint), label="base")
-        parent = whole.add("body", hinge((0, 0.1 * long, 0.026), UP, 3.0, -3.0), surface(body, paint))
-    else:
-        whole, parent = Rig(surface([foot, *body], paint), label="base"), 0
+    whole = Rig(surface([foot], paint), label="base")
+    parent = whole.add("body", hinge((0, 0.1 * long, 0.026), UP, 3.0, -3.0), surface(body, paint))
     gap = dice.between(0.0, 0.15) * long
     face = -0.012 * long - gap
     jaw = [
