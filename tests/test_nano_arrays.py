@@ -108,10 +108,11 @@ def test_parts_and_who_carries_them_are_read_as_the_trained_network_reads_them(n
     share = (share / share.sum(axis=1, keepdims=True)).astype(np.float32)
     numbers = generator.normal(size=(3, 7, COUNT)).astype(np.float32)
     real = np.arange(7) < np.array([[7], [3], [5]])
-    given = tokens, np.array([0, 1, 1]), share, numbers, real
-    found = arrays.parts(*given)
+    given = np.array([0, 1, 1]), share, numbers, real
+    found = arrays.parts(tokens, *given)
     with torch.no_grad():
-        expected = trained.parts(*(torch.from_numpy(value) for value in given))
+        seen = torch.from_numpy(tokens), torch.ones(2, 16, dtype=torch.bool)
+        expected = trained.parts(*seen, *(torch.from_numpy(value) for value in given))
         carried = trained.carriers(expected.embedding, expected.embedding[:2]).numpy()
     assert np.array_equal(np.isneginf(found.right), ~real)
     agree(expected, found, PartsRead.__dataclass_fields__)

@@ -72,7 +72,7 @@ class ArrayNetwork:
         numbers: Float32Array,
         real: BoolArray,
     ) -> PartsRead[Float32Array]:
-        """Read parts; arguments as of `NanoNetwork.parts`."""
+        """Read parts; arguments as of `NanoNetwork.parts`, of objects of which all pieces exist."""
         own = tokens[owner]
         mean = (share[:, None] @ own)[:, 0]
         highest = np.where((share > 0)[..., None], own, _HIDDEN).max(axis=1)

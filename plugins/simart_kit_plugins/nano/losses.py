@@ -50,7 +50,9 @@ class NanoLosses:
 
 def losses(model: NanoNetwork, batch: Batch, reading: Reading, targets: Targets) -> NanoLosses:
     """All terms for a batch that was read."""
-    read = model.parts(reading.tokens, targets.owner, targets.share, targets.numbers, targets.real)
+    read = model.parts(
+        reading.tokens, batch.there, targets.owner, targets.share, targets.numbers, targets.real
+    )
     real, whole = targets.part >= 0, targets.category >= 0
     terms = {
         "together": _together(reading.together, targets.part),

@@ -95,8 +95,7 @@ class NanoNetwork(nn.Module):
         alike = self.left(tokens) @ self.right(tokens).transpose(1, 2) / tokens.shape[2] ** 0.5
         together = alike + near[:, 0]
         together = together + together.transpose(1, 2)
-        seen = batch.there[..., None].to(tokens.dtype)
-        whole = (tokens * seen).sum(1) / seen.sum(1).clamp(min=1)
+        whole = _whole(tokens, batch.there)
         return Reading(
             tokens,
             together,
@@ -145,12 +144,13 @@ class NanoNetwork(nn.Module):
         return pooled.masked_fill(sizes[:, None] == 0, 0).reshape(*batch.there.shape, -1)
 
     def parts(
-        self, tokens: Tensor, owner: Tensor, share: Tensor, numbers: Tensor, real: Tensor
+        self, tokens: Tensor, there: Tensor, owner: Tensor, share: Tensor, numbers: Tensor, real: Tensor
     ) -> PartReading:
         """Read parts.
 
         Args:
             tokens: (B, S, D) of the objects.
+            there: (B, S) bool, which pieces exist.
             owner: (P,) object of each part.
             share: (P, S) how much of the part each piece is; rows sum to 1.
             numbers: (P, C, COUNT) evidence of its candidates.
@@ -160,7 +160,7 @@ class NanoNetwork(nn.Module):
         inside = share > 0
         mean = torch.einsum("ps,psd->pd", share, own)
         highest = own.masked_fill(~inside[..., None], -1e4).amax(1)
-        whole = own.mean(1)
+        whole = _whole(tokens, there)[owner]
         embedding = self.part(torch.cat([mean, highest, whole], dim=1))
         seen = embedding
         if self.training:
@@ -180,6 +180,12 @@ class NanoNetwork(nn.Module):
         )
         logits: Tensor = self.carrier(both)[..., 0]
         return logits
+
+
+def _whole(tokens: Tensor, there: Tensor) -> Tensor:
+    """(B, D) means of (B, S, D) tokens, of the pieces that exist."""
+    seen = there[..., None].to(tokens.dtype)
+    return (tokens * seen).sum(1) / seen.sum(1).clamp(min=1)
 
 
 class _Layer(nn.Module):

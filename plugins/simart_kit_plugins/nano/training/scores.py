@@ -67,7 +67,9 @@ def score(network: NanoNetwork, examples: Sequence[Stored]) -> NanoScore:
 
 def _rows(network: NanoNetwork, batch: Batch, reading: Reading, targets: Targets) -> list[list[float]]:
     """Of each object: pairs, pieces, category right; parts asked for kind, right; for candidates, right."""
-    read = network.parts(reading.tokens, targets.owner, targets.share, targets.numbers, targets.real)
+    read = network.parts(
+        reading.tokens, batch.there, targets.owner, targets.share, targets.numbers, targets.real
+    )
     kind = read.kind.argmax(1) == targets.part_kind
     asked = (targets.right != 0).any(1)
     first = targets.right.gather(1, read.right.argmax(1, keepdim=True))[:, 0] != 0
