@@ -3,7 +3,6 @@
 import re
 
 import numpy as np
-from simart_kit_plugins.nano.generate.assembly import MOST_BODIES
 from simart_kit_plugins.nano.generate.category import Category
 from simart_kit_plugins.nano.generate.objects import GeneratedObject
 from simart_kit_plugins.shapes.dice import Dice
@@ -31,7 +30,7 @@ def check(category: Category) -> None:
 
 def _check_object(made: GeneratedObject, moves: bool) -> None:
     assert moves == (len(made.bodies) > 1)
-    assert len(made.bodies) <= MOST_BODIES
+    assert len(made.bodies) <= 100
     names = [body.name for body in made.bodies]
     assert len(set(names)) == len(names)
     everything = np.concatenate([body.triangles for body in made.bodies]).reshape(-1, 3)

@@ -14,9 +14,6 @@ from ...shapes.dice import Dice
 from ...shapes.primitives import Pieces
 from .objects import Body, Look, Motion, Surface, surface
 
-# Objects have at most so many bodies, the root included; what comes after is fixed.
-MOST_BODIES = 128
-
 
 @dataclass(frozen=True, eq=False)
 class Leaf:
@@ -76,18 +73,19 @@ class Assembly:
         if pieces:
             self._fixed.setdefault(look, []).extend(pieces)
 
+    def dress(self, *surfaces: Surface) -> None:
+        """Make surfaces part of the root."""
+        for one in surfaces:
+            self.fix([one.triangles], one.look)
+
     def fix_leaf(self, leaf: Leaf) -> None:
         """Make what looks as if it moved part of the root."""
-        for one in leaf.surfaces:
-            self.fix([one.triangles], one.look)
+        self.dress(*leaf.surfaces)
         for child in leaf.children:
             self.fix_leaf(child)
 
     def add(self, leaf: Leaf, parent: int = 0) -> int:
-        """Hang a leaf and its children on a body; the number of the leaf's, or 0 where it had to be fixed."""
-        if len(self._bodies) + 1 >= MOST_BODIES:
-            self.fix_leaf(leaf)
-            return 0
+        """Hang a leaf and its children on a body; the number of the leaf's."""
         taken = {body.name for body in self._bodies} | {self._label}
         name, count = leaf.name, 1
         while name in taken:

@@ -135,8 +135,7 @@ def decoy(made: Assembly, dice: Dice, style: Style, opening: Opening, look: Look
     """A front that looks as if it opened, on a board that closes the room behind it."""
     low = opening.height < 0.6 * opening.width
     shown = leaves.drawer_front(style, opening) if low else _any_door(dice, style, opening).surfaces
-    for one in shown:
-        made.fix([one.triangles], one.look)
+    made.dress(*shown)
     y = opening.front + style.reach
     made.fix([between((opening.left, y, opening.low), (opening.right, y + 0.012, opening.high))], look)
 

@@ -126,8 +126,7 @@ def _between_ends(
     if kind == "apron":
         made.fix([between((left, -y + 0.02, high - tall), (right, -y + 0.04, high))], look)
         if dice.chance(0.4):
-            for one in leaves.drawer_front(style, replace(room, front=-y + 0.02)):
-                made.fix([one.triangles], one.look)
+            made.dress(*leaves.drawer_front(style, replace(room, front=-y + 0.02)))
         return
     count = 1 if room.width < 0.7 and dice.chance(0.7) else dice.whole(1, 3)
     for cell in room.columns([1.0] * count, slim):

@@ -318,11 +318,7 @@ def _windmill(dice: Dice, radius: float, count: int, look: Look) -> list[Body]:
     whole = Rig(surface([tower], look), label="tower")
     at = np.array([0, 0, tall + 0.004])
     cap = superquadric((0.55 * radius, 0.6 * radius, 0.35 * radius), 0.8, 0.8, 8) + at + [0, 0, 0.17 * radius]
-    yaw = whole.add(
-        "cap",
-        spin(at, UP),
-        surface([cap], looks.wood(dice)),
-    )
+    yaw = whole.add("cap", spin(at, UP), surface([cap], looks.wood(dice)))
     hub = at + [0, -0.4 * radius, 0.17 * radius]
     blade = [
         box((0.06 * radius, 0.04 * radius, 0.95 * radius), (0, 0, 0.5 * radius)),

@@ -44,9 +44,11 @@ def key_row(
         low, high = (cut if dark[k] else 0.0012), pitch - (cut if dark[k + 1] else 0.0012)
         key: Pieces = [between((0.0012, -long, 0), (pitch - 0.0012, -0.63 * long, thick))]
         key.append(between((low, -0.64 * long, 0), (high, 0, thick)))
-        on: Pieces = [form * [0.6, 1, 1] + at + [pitch / 2, 0, 0]] if wide else []
+        parts: list[tuple[Pieces, Look]] = [(moved(key, at), white)]
+        if wide:
+            parts.append(([form * [0.6, 1, 1] + at + [pitch / 2, 0, 0]], black))
         motion = hinge(at + [0, 0, thick], (1, 0, 0), DIP)
-        row.append((motion, [(moved(key, at), white), (on, black)]))
+        row.append((motion, parts))
         if dark[k + 1]:
             row.append((motion, [([form + at + [pitch, 0, 0]], black)]))
     return row

@@ -32,7 +32,7 @@ def _keys(made: Assembly, dice: Dice, width: float, front_y: float, level: float
     ivory, ebony = looks.ceramic(dice), looks.darker(looks.rubber(dice), 0.5)
     spot = (0.0, front_y, level + DIP * long + 0.002)
     for motion, parts in key_row(spot, count, width / count, long, ivory, ebony):
-        surfaces = tuple(surface(pieces, look) for pieces, look in parts if pieces)
+        surfaces = tuple(surface(pieces, look) for pieces, look in parts)
         made.add(Leaf("key", "key", surfaces, motion))
 
 
