@@ -22,7 +22,7 @@ from . import looks
 from .assembling import Assembly, press
 from .category import Category
 from .cookware import bail, ear, tilting
-from .objects import Body, Look, free, hinge, slide, spin
+from .objects import Body, Look, hinge, slide, spin
 
 
 def _cap(dice: Dice, radius: float, high: float) -> Pieces:
@@ -69,10 +69,8 @@ def _jar(dice: Dice) -> list[Body]:
     high = min(max(neck * dice.between(0.3, 1.0), 0.008), 1.5 * (height - 1.1 * throat))
     base = (0.0, 0.0, height - high * 0.6)
     cap = moved(_cap(dice, neck * dice.between(1.08, 1.2), high), base)
-    if style < 0.5:
+    if style < 0.65:
         kit.add("cap", spin(base, (0, 0, 1)), [(cap, stuff)])
-    elif style < 0.65:
-        kit.add("cap", free(), [(cap, stuff)])
     elif style < 0.8:
         _swing_top(dice, kit, neck, height, stuff)
     else:
