@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 import torch
 from simart_kit_plugins.nano.config import NanoConfig
-from simart_kit_plugins.nano.learning import batch_of
 from simart_kit_plugins.nano.network import NanoNetwork
 from simart_kit_plugins.nano.training import checkpoint, pool
 from simart_kit_plugins.nano.training.loop import batch_rows, train, with_names
@@ -141,9 +140,7 @@ def test_pair_layers_are_trained_with_all_else_held(plan, objects, tmp_path):
     assert {n.split(".")[0] for n, p in again.named_parameters() if p.requires_grad} == {"pairs"}
 
 
-@pytest.mark.parametrize("dropout", [0.0, 0.2])
-def test_a_run_that_was_killed_ends_with_the_weights_it_would_have_had(plan, objects, tmp_path, dropout):
-    plan = plan.model_copy(update={"dropout": dropout})
+def test_a_run_that_was_killed_ends_with_the_weights_it_would_have_had(plan, objects, tmp_path):
     whole = train(plan, objects, tmp_path / "whole", lambda row: None)
 
     class KilledError(Exception):
@@ -161,23 +158,6 @@ def test_a_run_that_was_killed_ends_with_the_weights_it_would_have_had(plan, obj
     assert [row.step for row in rows] == [4, 6]
     for name, tensor in weights(whole).items():
         assert torch.equal(tensor, weights(ended)[name]), name
-
-
-def test_numbers_drop_out_in_training_and_not_afterwards(plan, objects, tmp_path):
-    torch.manual_seed(5)
-    before = torch.get_rng_state()
-    dropping = plan.model_copy(update={"dropout": 0.5})
-    ended = train(dropping, objects, tmp_path / "dropping", lambda row: None)
-    # Nobody else's chance is touched.
-    assert torch.equal(torch.get_rng_state(), before)
-    whole = weights(train(plan, objects, tmp_path / "whole", lambda row: None))
-    assert not torch.equal(weights(ended)["moves.weight"], whole["moves.weight"])
-    batch = batch_of(objects[:2])
-    with torch.no_grad():
-        one, other = ended(batch).moves, ended(batch).moves
-        assert torch.equal(one, other)
-        ended.train()
-        assert not torch.equal(ended(batch).moves, one)
 
 
 def test_another_plan_or_a_damaged_checkpoint_is_refused(plan, objects, tmp_path):

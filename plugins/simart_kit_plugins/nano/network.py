@@ -49,19 +49,11 @@ class Batch:
 
 
 class NanoNetwork(nn.Module):
-    """See `Reading` and `PartReading` for what it says.
+    """See `Reading` and `PartReading` for what it says."""
 
-    Args:
-        config: sizes and names.
-        seed: of the weights to begin with.
-        dropout: share of what a layer adds to tokens, and of what parts are told by, that is left out in
-            training (Srivastava et al., "Dropout", 2014); nothing is said by a few numbers alone then.
-    """
-
-    def __init__(self, config: NanoConfig, seed: int = 0, dropout: float = 0.0) -> None:
+    def __init__(self, config: NanoConfig, seed: int = 0) -> None:
         super().__init__()
         self.config = config
-        self.told = nn.Dropout(dropout)
         width = config.channels
         with torch.random.fork_rng(devices=[]):
             torch.default_generator.manual_seed(seed)
@@ -69,7 +61,7 @@ class NanoNetwork(nn.Module):
             self.enter = _perceptron(2 * config.point_channels + PIECE_NUMBERS, config.hidden, width)
             # A bias of every head of every layer, and one of the answer whether two pieces belong together.
             self.biases = nn.Conv2d(PAIR_NUMBERS, config.layers * config.heads + 1, 1)
-            self.layers = nn.ModuleList(_Layer(config, dropout) for _ in range(config.layers))
+            self.layers = nn.ModuleList(_Layer(config) for _ in range(config.layers))
             self.norm = nn.LayerNorm(width)
             self.left, self.right = nn.Linear(width, width), nn.Linear(width, width)
             self.moves = nn.Linear(width, 1)
@@ -169,7 +161,7 @@ class NanoNetwork(nn.Module):
         mean = torch.einsum("ps,psd->pd", share, own)
         highest = own.masked_fill(~inside[..., None], -1e4).amax(1)
         whole = _whole(tokens, there)[owner]
-        embedding = self.part(self.told(torch.cat([mean, highest, whole], dim=1)))
+        embedding = self.part(torch.cat([mean, highest, whole], dim=1))
         seen = embedding
         if self.training:
             told = torch.arange(len(embedding), device=embedding.device) % _BLIND > 0
@@ -199,10 +191,10 @@ def _whole(tokens: Tensor, there: Tensor) -> Tensor:
 class _Layer(nn.Module):
     """Attention that heeds how pieces lie to each other, and a perceptron; both residual."""
 
-    def __init__(self, config: NanoConfig, dropout: float) -> None:
+    def __init__(self, config: NanoConfig) -> None:
         super().__init__()
         width = config.channels
-        self.heads, self.added = config.heads, nn.Dropout(dropout)
+        self.heads = config.heads
         self.before, self.after = nn.LayerNorm(width), nn.LayerNorm(width)
         self.ask, self.answer = nn.Linear(width, 3 * width), nn.Linear(width, width)
         self.think = _perceptron(width, config.hidden, width)
@@ -217,9 +209,8 @@ class _Layer(nn.Module):
         heeded = query @ key.transpose(2, 3) / query.shape[3] ** 0.5 + biases
         shares = heeded.masked_fill(hidden, -1e4).softmax(3).to(value.dtype)
         heard = shares @ value
-        answer = self.answer(heard.transpose(1, 2).reshape(count, most, width))
-        tokens = tokens + self.added(answer)
-        result: Tensor = tokens + self.added(self.think(self.after(tokens)))
+        tokens = tokens + self.answer(heard.transpose(1, 2).reshape(count, most, width))
+        result: Tensor = tokens + self.think(self.after(tokens))
         return result
 
 

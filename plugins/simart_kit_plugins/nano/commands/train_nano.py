@@ -28,9 +28,6 @@ Batch = Annotated[int | None, typer.Option(min=1, metavar="N", help="Objects a s
 SkinShare = Annotated[float | None, typer.Option(metavar="X", help="Share of objects that are one skin.")]
 HeldOut = Annotated[int | None, typer.Option(min=1, metavar="N", help="Objects to judge on.")]
 Rate = Annotated[float | None, typer.Option(metavar="X", help="Step size of AdamW.")]
-Dropout = Annotated[
-    float | None, typer.Option(metavar="X", help="Share of what layers add that is left out in training.")
-]
 Start = Annotated[
     Path | None,
     typer.Option(
@@ -65,7 +62,6 @@ def train_nano(
     held_out: HeldOut = None,
     skin_share: SkinShare = None,
     learning_rate: Rate = None,
-    dropout: Dropout = None,
     start: Start = None,
     start_share: StartShare = None,
     only: Only = None,
@@ -92,7 +88,6 @@ def train_nano(
         "held_out": held_out,
         "skin_share": skin_share,
         "learning_rate": learning_rate,
-        "dropout": dropout,
         "start": str(start) if start else None,
         "start_share": start_share,
         "only": only,

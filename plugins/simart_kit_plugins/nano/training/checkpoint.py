@@ -50,7 +50,7 @@ def begun(plan: TrainingPlan) -> Progressing:
     Raises:
         BadInputError: that model cannot be read, or its network is of other sizes than the plan's.
     """
-    network = NanoNetwork(plan.network, plan.seed, plan.dropout).to(plan.device)
+    network = NanoNetwork(plan.network, plan.seed).to(plan.device)
     if plan.start:
         network.load_state_dict(weights_of_start(plan, network.state_dict()))
     return _with(network, plan)
@@ -144,7 +144,7 @@ def load(plan: TrainingPlan, run: Path) -> Progressing:
         table = json.loads((folder / STATE).read_text(encoding="utf-8"))
         _check_same(TrainingPlan.model_validate_json(json.dumps(table["plan"])), plan, folder)
         tensors = load_file(folder / TENSORS)
-        state = _with(NanoNetwork(plan.network, dropout=plan.dropout), plan)
+        state = _with(NanoNetwork(plan.network), plan)
         with torch.no_grad():
             for name, own in _tensors(state).items():
                 own.copy_(tensors[name])

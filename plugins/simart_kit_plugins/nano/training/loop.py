@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -107,21 +106,12 @@ def batch_rows(sizes: Sequence[int], batch_size: int, seed: int, step: int) -> l
     return list(map(int, batches[generator.permutation(per_pass)[step % per_pass]]))
 
 
-@contextmanager
-def _dropping(plan: TrainingPlan, step: int) -> Iterator[None]:
-    """What drops out within is a function of seed and step alone, however often a run was stopped."""
-    with torch.random.fork_rng(devices=[] if plan.device == "cpu" else [plan.device]):
-        torch.manual_seed(int(np.random.default_rng((plan.seed, step, 2)).integers(2**63)))
-        yield
-
-
 def _step(state: Progressing, plan: TrainingPlan, some: Sequence[Stored]) -> dict[str, float]:
     """One step on a few examples; the state changes, and the losses before it are returned."""
     network = state.network
     batch, targets = batch_of(some).to(plan.device), targets_of(some, plan.network).to(plan.device)
     device = torch.device(plan.device).type
-    mixed = torch.autocast(device, torch.bfloat16, enabled=plan.precision == "bf16")
-    with mixed, _dropping(plan, state.step):
+    with torch.autocast(device, torch.bfloat16, enabled=plan.precision == "bf16"):
         reading = network(batch)
         found = losses(network, batch, reading, targets)
     state.optimiser.zero_grad()

@@ -44,9 +44,6 @@ class TrainingPlan(Table):
     learning_rate: float = Field(default=1e-3, gt=0, description="Step size of AdamW, after the warm-up.")
     warm_up: int = Field(default=200, ge=0, description="Steps in which the rate rises from 0.")
     weight_decay: float = Field(default=0.02, ge=0, description="Of weights; not of norms and biases.")
-    dropout: float = Field(
-        default=0, ge=0, lt=1, description="Share of what layers add that is left out in training."
-    )
     gradient_clip: float = Field(default=1.0, gt=0, description="Largest norm of a step's gradient.")
     averaging: float = Field(
         default=0.999, ge=0, lt=1, description="Share of the running mean of the weights kept a step."
