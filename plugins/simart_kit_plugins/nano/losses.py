@@ -9,6 +9,7 @@ from torch import Tensor
 from torch.nn.functional import binary_cross_entropy_with_logits, cross_entropy, smooth_l1_loss
 
 from .learning import Targets
+from .lessening import MOST_ASKED
 from .network import Batch, NanoNetwork, PartReading, Reading
 from .reading import MOST_PAIRED
 from .truth import KINDS
@@ -77,7 +78,10 @@ def _together(logits: Tensor, part: Tensor) -> Tensor:
 
 
 def _paired(model: NanoNetwork, batch: Batch, reading: Reading, targets: Targets) -> Tensor:
-    """The same after a look at pairs, of objects of which these are looked at: each part counts alike."""
+    """The same after a look at pairs, of objects of which these are looked at.
+
+    Each part counts alike, up to as many as are asked for.
+    """
     count = batch.there.sum(1)
     few = count <= MOST_PAIRED
     if not few.any():
@@ -85,6 +89,7 @@ def _paired(model: NanoNetwork, batch: Batch, reading: Reading, targets: Targets
     most = int(count[few].max())
     logits = model.paired(batch, reading, few, most)
     cost, weight = _of_pieces(logits, targets.part[few, :most], _NEIGHBOURS, _BODY)
+    weight = weight / (weight.sum(1, keepdim=True) / MOST_ASKED).clamp(min=1)
     return (cost * weight).sum() / weight.sum()
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from simart_kit.arrays import FloatArray
 
 from .evidence import EXTENTS
-from .lessening import lessened
+from .lessening import few_asked, lessened
 from .scene import AREA, COLOR, HALF, MIDDLE, REACH, SPREAD, area_number, area_share
 from .store import Stored
 from .truth import KINDS
@@ -25,6 +25,7 @@ _LESSENED = 0.3  # of the objects
 def varied(examples: Sequence[Stored], generator: np.random.Generator) -> list[Stored]:
     """The examples of a step; some have less on them, and small ones sometimes another one beside them."""
     some = [filling(lessened(e, generator)) if generator.random() < _LESSENED else e for e in examples]
+    some = [few_asked(e, generator) for e in some]
     seen = [
         recolored(turned(e, int(generator.integers(4)), bool(generator.integers(2))), generator) for e in some
     ]
