@@ -21,7 +21,10 @@ from .machine_tools_parts import DARK
 from .objects import Body, Look, hinge, slide, spin
 from .rigging import FRONT, UP
 
-_GRIDS = ((2, 1), (3, 1), (4, 1), (2, 2), (3, 2), (4, 2), (2, 3), (3, 3), (4, 3), (3, 4))
+_GRIDS = (
+    *((2, 1), (3, 1), (4, 1), (2, 2), (3, 2), (4, 2), (2, 3), (3, 3), (4, 3), (3, 4)),
+    *((6, 1), (10, 1), (5, 3), (6, 4), (4, 6), (8, 5)),
+)
 """Columns and rows of a bank of lockers."""
 _WALL = 0.015
 """Thickness of a locker's walls [m]."""
@@ -105,9 +108,8 @@ def _door(dice: Dice, kit: Assembly, doors: _Doors, middle: FloatArray) -> None:
     edge, side = middle + [doors.side * size[0] / 2, 0, 0], doors.side
     motion = swing(side, edge[0], edge[1], dice.between(1.6, 2.2))
     number = kit.add("door", motion, [(leaf, doors.look), (plate, looks.metal(dice))])
-    if kit.count < 23:
-        lock = middle + [-side * (size[0] / 2 - 0.04), -0.007, 0]
-        _latch(dice, kit, number, lock, doors.style, side)
+    lock = middle + [-side * (size[0] / 2 - 0.04), -0.007, 0]
+    _latch(dice, kit, number, lock, doors.style, side)
 
 
 def _locker_bank(dice: Dice) -> list[Body]:

@@ -101,7 +101,7 @@ def _beads(dice: Dice, kit: Assembly, wide: float, radius: float, z: float) -> N
     room = wide - total * long - 0.004
     ends = ((left, -wide / 2 + long / 2), (total - left, wide / 2 - (total - left - 0.5) * long))
     for count, start in ends:
-        if count and kit.count < 23:
+        if count:
             way, off = (RIGHT, 0.001) if start < 0 else (LEFT, -0.001)
             run = at(bead * [0.98, 1, 1], [(start + off + i * long, 0, z) for i in range(count)])
             kit.add("beads", slide(way, room), [(run, looks.plastic(dice))])

@@ -22,7 +22,7 @@ from .objects import Body, Look
 
 NAME = "contraption"
 # Bodies at most, the root included.
-_MOST = 24
+_MOST = 72
 
 _FITTINGS: Sequence[tuple[float, Fitting]] = (
     (2, fittings.knob),
@@ -141,8 +141,11 @@ def _cells(dice: Dice, sites: list[Site]) -> list[list[Site]]:
         if site.open:
             groups.append([site])
             continue
-        columns = min(4, max(1, round(site.wide / site.high * dice.between(0.5, 1.5))))
-        rows = min(4, max(1, round(site.high / site.wide * dice.between(0.5, 1.5))))
+        many, most = (dice.whole(2, 6), 12) if dice.chance(0.08) else (1, 4)
+        columns, rows = (
+            min(most, max(1, round(many * ratio * dice.between(0.5, 1.5))))
+            for ratio in (site.wide / site.high, site.high / site.wide)
+        )
         cells = site.cells(columns, rows)
         if dice.chance(0.5):
             groups.append(cells)

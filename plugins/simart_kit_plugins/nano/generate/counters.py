@@ -53,8 +53,7 @@ def _cash_machine(dice: Dice) -> list[Body]:
         for k in range(dice.pick((0, 3, 3))):
             spot = np.array([s * 0.205, -0.0005, ledge + 0.18 + 0.07 * k])
             kit.fix([box((0.03, 0.012, 0.03), spot - [0, -0.002, 0])], DARK)
-            if kit.count < 22:
-                kit.add("button", press(0.002), [([box((0.02, 0.005, 0.02), spot - [0, 0.007, 0])], coat)])
+            kit.add("button", press(0.002), [([box((0.02, 0.005, 0.02), spot - [0, 0.007, 0])], coat)])
     side = dice.sign()
     face = -deep / 2 - 0.011
     leaf = [box((wide - 0.006, 0.02, ledge - 0.07), (0, face, (ledge - 0.06) / 2))]

@@ -227,7 +227,7 @@ def _remote_control(dice: Dice) -> list[Body]:
     width, depth, thick = dice.between(0.035, 0.06), dice.between(0.1, 0.22), dice.between(0.012, 0.025)
     shell = looks.plastic(dice)
     whole = Rig(surface([slab(dice, width, depth, thick) + [0, 0, thick / 2]], shell))
-    rows, columns = dice.whole(2, 5), dice.whole(2, 4)
+    rows, columns = dice.pick((dice.whole(2, 5), dice.whole(5, 12))), dice.whole(2, 4)
     share = dice.between(0.35, 0.6)
     spots = grid(width * 0.85, depth * share, rows, columns)
     size, rise = min(0.6 * width / columns, 0.6 * depth * share / rows), dice.between(0.0015, 0.003)
@@ -257,7 +257,7 @@ def _remote_control(dice: Dice) -> list[Body]:
 
 
 def _keyboard(dice: Dice) -> list[Body]:
-    """A computer keyboard or a number pad; only some of its keys move."""
+    """A computer keyboard or a number pad."""
     small = dice.chance(0.35)
     rows, columns = (dice.whole(4, 5), dice.whole(3, 4)) if small else (dice.whole(4, 6), dice.whole(12, 17))
     pitch, high = dice.between(0.017, 0.021), dice.between(0.01, 0.025)
@@ -267,19 +267,10 @@ def _keyboard(dice: Dice) -> list[Body]:
     rise = dice.between(0.003, 0.009)
     key = superquadric((0.88 * pitch, 0.88 * pitch, 2 * rise), 0.3, 0.2, 4) + [0, 0, high]
     spots = grid(width, depth, rows, columns)
-    live = set(range(dice.whole(2, 6))) if not small else set(range(len(spots)))
-    first = 0 if small else dice.whole(0, len(spots) - len(live))
     space = 0 if small else dice.whole(4, 6)
-    still = []
     for number, (x, y) in enumerate(spots):
-        if space and number < columns and abs(x) < space / 2 * pitch:
-            continue
-        if number - first in live:
+        if number >= columns or abs(x) >= space / 2 * pitch:
             whole.add("key", press(0.5 * rise), surface([key + [x, y, 0]], caps))
-        else:
-            still.append(box((0.86 * pitch, 0.86 * pitch, rise), (x, y, high + rise / 2)))
-    if still:
-        whole.dress(0, surface(still, caps))
     if space:
         bar = box(((space - 0.4) * pitch, 0.86 * pitch, rise), (0, spots[0][1], high + rise / 2))
         whole.add("space bar", press(0.5 * rise), surface([bar], caps))

@@ -56,9 +56,10 @@ def forked_wheel(dice: Dice, room: Room) -> Assembly:
 
 def key_row(dice: Dice, room: Room) -> Assembly:
     """Long keys side by side that go down at their free end; they turn at the other, below a bar."""
-    kit, count = Assembly(), dice.whole(3, 10)
+    kit, count = Assembly(), dice.pick((dice.whole(3, 10), dice.whole(10, 40)))
     pitch, long = room.wide * 0.95 / count, room.high * dice.between(0.4, 0.9)
-    thick, wide = min(pitch, 0.3 * long) * dice.between(0.3, 0.9), pitch * dice.between(0.7, 0.94)
+    thick = float(np.clip(pitch, 0.1 * long, 0.3 * long)) * dice.between(0.3, 0.9)
+    wide = pitch * dice.between(0.7, 0.94)
     dip = 0.25 * thick
     back = long / 2
     bar = box((room.wide, 2.2 * thick + dip, 0.15 * long), (0, -1.1 * thick - dip / 2, back + 0.06 * long))

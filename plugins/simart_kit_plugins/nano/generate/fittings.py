@@ -69,10 +69,10 @@ def knob(dice: Dice, room: Room) -> Assembly:
 
 def buttons(dice: Dice, room: Room) -> Assembly:
     """A field of buttons or keys, some in a frame."""
-    kit, cell = Assembly(), room.least / dice.pick((1, 1, 2, 2, 3))
-    columns, rows = (min(6, max(1, int(length / cell))) for length in (room.wide, room.high))
-    rows = min(rows, 12 // columns)
-    thick = cell * dice.between(0.1, 0.4)
+    kit, cell = Assembly(), room.least / dice.pick((1, 1, 2, 2, 3, 5))
+    columns, rows = (min(10, max(1, int(length / cell))) for length in (room.wide, room.high))
+    rows = min(rows, dice.pick((12, 50)) // columns)
+    thick = max(cell * dice.between(0.1, 0.4), 0.0035)
     outline = dice.pick((SQUARE, rounded(0.2), rounded(0.5)))
     size = cell * dice.between(0.45, 0.9)
     for row in range(rows):

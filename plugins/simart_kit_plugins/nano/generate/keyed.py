@@ -47,10 +47,17 @@ def _keys(kit: Assembly, spot: tuple[float, float, float], count: int, pitch: fl
         kit.add("key", motion, parts)
 
 
-def _controls(dice: Dice, wide: float, high: float, most: int) -> Assembly:
+def _octaves(dice: Dice, few: int, wide: float) -> tuple[int, float]:
+    """How many white keys, and from one to the next [m]: those of a real keyboard, or a few wide ones."""
+    if dice.chance(0.3):
+        return few, wide
+    return dice.pick((15, 22, 29, 36, 43, 52)), dice.between(0.0205, 0.0237)
+
+
+def _controls(dice: Dice, wide: float, high: float) -> Assembly:
     """Knobs, sliders and switches on the plane y = 0."""
     kit, look = Assembly(), looks.plastic(dice)
-    count = max(1, min(most, dice.whole(3, 8), int(wide / 0.026)))
+    count = min(dice.whole(3, 12), int(wide / 0.026))
     size = min(1.3 * wide / count, high, dice.between(0.05, 0.1))
     room = fittings.Room(size, size, _DARK, look, look)
     every = (fittings.knob, fitted_leaves.slider, fittings.toggle)
@@ -64,8 +71,9 @@ def _controls(dice: Dice, wide: float, high: float, most: int) -> Assembly:
 def _synthesizer(dice: Dice) -> list[Body]:
     """A slab with keys before a panel, which in some tips up or lies below a lid; some on a stand."""
     kit, look = Assembly("body"), dice.pick((looks.plastic, looks.painted_metal, looks.wood))(dice)
-    count, pitch, base = dice.whole(5, 9), dice.between(0.024, 0.055), dice.between(0.018, 0.05)
-    long, strip, deep = pitch * dice.between(3, 4.5), dice.pick((0.0, 0.05, 0.08)), dice.between(0.07, 0.2)
+    count, pitch = _octaves(dice, dice.whole(5, 9), dice.between(0.024, 0.055))
+    base, long = dice.between(0.018, 0.05), max(pitch * dice.between(3, 4.5), dice.between(0.08, 0.14))
+    strip, deep = dice.pick((0.0, 0.05, 0.08)), dice.between(0.07, 0.2)
     make, edge = dice.pick(("", "", "tilting", "lid")), dice.weighted([(3, 0.015), (1, 0.12)])
     level, back, wood = base + 0.004 + 0.05 * long, long + 0.004, looks.wood(dice)
     low, wide = level + dice.between(1.3, 2.2) * min(0.02, 0.5 * pitch), count * pitch + strip
@@ -91,7 +99,7 @@ def _synthesizer(dice: Dice) -> list[Body]:
         tub += [box((0.1, 0.03, 0.012), (0, -end - 0.03, 0.03)), box((0.1, 0.006, 0.02), (0, 0, 0.004))]
         _turn(kit, "lid", (0, end + 0.008, low - 0.004), _UP, (1.9,), (tub, wood), 0.3 * wide)
     slope = rotation(_DOWN, np.arctan2(high - low, deep) - np.pi / 2)
-    controls = _controls(dice, 0.92 * wide, 0.75 * deep, 22 - kit.count)
+    controls = _controls(dice, 0.92 * wide, 0.75 * deep)
     kit.graft(controls, (0, back + 0.53 * deep, (low + high) / 2), slope, parent)
     tall, reach, bar, metal = dice.between(0.5, 0.75), 0.42 * max(wide, 0.5), 0.6 * end, looks.metal(dice)
     for s in (-1, 1) if dice.chance(0.45) else ():  # two crossed frames
@@ -107,7 +115,7 @@ def _synthesizer(dice: Dice) -> list[Body]:
 def _typewriter(dice: Dice) -> list[Body]:
     """Keys before a housing with a cover; a carriage on a rail, or a head that runs before a fixed roller."""
     kit, look = Assembly("body"), dice.pick((looks.painted_metal, looks.plastic))(dice)
-    wide, rows, row = dice.between(0.26, 0.42), dice.whole(2, 3), dice.between(0.024, 0.034)
+    wide, rows, row = dice.between(0.26, 0.42), dice.whole(2, 4), dice.between(0.024, 0.034)
     front, high, metal = (rows + 1.9) * row, dice.between(0.1, 0.15), looks.metal(dice)
     deep, middle, own, to = front + 0.18, front + dice.between(0.06, 0.09), wide, 0
     cheek = [(0, 0), (deep, 0), (deep, high), (front, high), (front, dice.between(0.5, 1) * high), (0, 0.03)]
@@ -153,8 +161,9 @@ def _typewriter(dice: Dice) -> list[Body]:
 def _type_keys(dice: Dice, kit: Assembly, size: tuple[float, float, float], rows: int) -> None:
     """Caps on arms that tip about a bar, or caps that go down into steps."""
     (wide, row, front), look, metal, tips = size, looks.plastic(dice), looks.metal(dice), dice.chance(0.5)
-    columns, step, disks = 12 // rows, dice.between(0.006, 0.014), dice.chance(0.6)
+    columns, step, disks = dice.pick((4, 6, 8, 10)), dice.between(0.006, 0.014), dice.chance(0.6)
     pitch = 0.84 * wide / columns  # an even number of columns leaves the middle to the space bar's arm
+    thin = min(0.0024, 0.25 * pitch / rows)
     for r in range(-1, rows):
         y, z, count = (r + 1.5) * row, 0.05 + r * step, columns if r >= 0 else 1
         steps = [box((wide - 0.02, row, z - 0.024), (0, y + 0.006, z / 2))]
@@ -167,7 +176,7 @@ def _type_keys(dice: Dice, kit: Assembly, size: tuple[float, float, float], rows
             stem, motion = [rod((x, y, z - 0.02), (x, y, z), 0.004, 8)], slide((0, 0, -1), 0.006)
             if tips:
                 arm = [(x, front - 0.008, 0.026), (x, y + 0.004, 0.026), (x, y, 0.029), (x, y, z)]
-                stem = [tube(arm, 0.0024), lying(0.005, 0.006, X, 10) + arm[0]]
+                stem = [tube(arm, thin), lying(0.005, 2.5 * thin, X, 10) + arm[0]]
                 motion = hinge(arm[0], _DOWN, 0.009 / (front - y))
             kit.add("key", motion, [(cap, look), (stem, metal)])
 
@@ -349,7 +358,8 @@ def _rig_seat(dice: Dice, kit: Assembly, x: float, start: float) -> None:
 def _pump_organ(dice: Dice) -> list[Body]:
     """Treadles below, keys under a fall board, stop knobs above them, a music desk and a lid on top."""
     kit, look, brass, dark = Assembly("body"), looks.wood(dice), looks.metal(dice), looks.wood(dice)
-    count, pitch, long = dice.whole(5, 8), dice.between(0.06, 0.12), dice.between(0.12, 0.15)
+    count, pitch = _octaves(dice, dice.whole(5, 8), dice.between(0.06, 0.12))
+    long = dice.between(0.12, 0.15)
     wide, deep, bed = count * pitch + dice.between(0.06, 0.3), dice.between(0.22, 0.5), dice.between(0.6, 0.7)
     tall, reach, gap = bed + dice.between(0.28, 0.8), long + 0.08, dice.between(0.28, 0.36)
     spans = [(-0.1, deep, 0, 0.04), (-reach, deep, bed - 0.04, bed), (-0.02, 0, bed, bed + 0.05)]

@@ -53,7 +53,7 @@ def _cash_register(dice: Dice) -> list[Body]:
 
 def _keys(dice: Dice, kit: Assembly, size: tuple[float, float], middle: FloatArray, slope: float) -> None:
     """Keys that go down into a sloped board."""
-    rows, columns = dice.whole(3, 4), dice.whole(3, 5)
+    rows, columns = dice.whole(3, 6), dice.pick((dice.whole(3, 5), dice.whole(5, 10)))
     turn = rotation((1, 0, 0), slope)
     cell = (size[0] * 0.7 / columns, size[1] * 0.55 / rows)
     look = looks.plastic(dice)

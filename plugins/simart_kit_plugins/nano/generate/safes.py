@@ -280,7 +280,7 @@ def _slot(made: Assembly, dice: Dice, width: float, near: float, level: float, s
 
 def _lockers(dice: Dice) -> Sequence[Body]:
     """A block of letter boxes, each with a door, some with locks."""
-    across, up = dice.whole(1, 4), dice.whole(1, 5)
+    across, up = dice.pick((dice.whole(1, 4), dice.whole(4, 8))), dice.whole(1, 6)
     cell, high, depth = dice.between(0.2, 0.35), dice.between(0.1, 0.3), dice.between(0.15, 0.4)
     look, made = looks.painted_metal(dice), Assembly("body")
     width, height, wall = across * cell, up * high, 0.01

@@ -184,7 +184,7 @@ def _add_rings(dice: Dice, kit: Assembly, place: tuple[float, float, float], boa
 def _pill_box(dice: Dice) -> list[Body]:
     """Rows of small cells, each with its own lid."""
     kit, coat = Assembly("box"), looks.plastic(dice)
-    columns, rows = dice.whole(2, 7), dice.pick((1, 1, 2, 3))
+    columns, rows = dice.whole(2, 7), dice.pick((1, 1, 2, 3, 4))
     cell = dice.spread(0.018, 0.07)
     deep = cell * dice.between(0.8, 1.6)
     high, wall = cell * dice.between(0.4, 1.0), 0.05 * cell

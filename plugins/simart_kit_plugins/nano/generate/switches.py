@@ -246,7 +246,7 @@ def _cover(dice: Dice, kit: Assembly, width: float, height: float, room: float) 
 
 def _knob_panel(dice: Dice) -> list[Body]:
     """A flat or sloped case with rows of knobs, faders, buttons and toggles."""
-    columns, rows = dice.whole(2, 7), dice.whole(1, 3)
+    columns, rows = dice.pick((dice.whole(2, 7), dice.whole(7, 16))), dice.whole(1, 4)
     cell = dice.between(0.025, 0.06)
     width, height, deep = (columns + 0.6) * cell, (rows + 0.6) * cell, dice.between(0.02, 0.08)
     kit = Assembly("case")

@@ -373,7 +373,7 @@ def _bureau(dice: Dice) -> Sequence[Body]:
 
 def _parts_rack(dice: Dice) -> Sequence[Body]:
     """Small bins in rows on a wall: drawers that slide, bins that tip, or both; mostly clear."""
-    up, across, board = dice.whole(2, 5), dice.whole(2, 4), 0.004
+    up, across, board = dice.whole(2, 8), dice.pick((dice.whole(2, 4), dice.whole(4, 8))), 0.004
     size = (across * dice.between(0.06, 0.16), dice.between(0.08, 0.22), up * dice.between(0.05, 0.13))
     look = dice.pick((looks.plastic(dice), looks.painted_metal(dice), looks.wood(dice)))
     clear, made = Look("plastic", (200, 215, 220)), Assembly("body")
