@@ -40,7 +40,7 @@ def lessened(e: Stored, generator: np.random.Generator) -> Stored:
 def few_asked(e: Stored, generator: np.random.Generator) -> Stored:
     """The example with the joints and names of some of its parts only; the pieces of all still move.
 
-    A keyboard has a lesson more for its pieces than a door, and not a hundred more for its joints.
+    The hundredth key teaches nothing about joints that the first ones did not, and costs as much time.
     """
     if len(e.number) <= MOST_ASKED:
         return e

@@ -80,7 +80,7 @@ def _together(logits: Tensor, part: Tensor) -> Tensor:
 def _paired(model: NanoNetwork, batch: Batch, reading: Reading, targets: Targets) -> Tensor:
     """The same after a look at pairs, of objects of which these are looked at.
 
-    Each part counts alike, up to as many as are asked for.
+    Each part counts alike, but those of one object no more than as many as are asked for.
     """
     count = batch.there.sum(1)
     few = count <= MOST_PAIRED
