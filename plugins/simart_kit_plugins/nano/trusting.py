@@ -40,8 +40,8 @@ def enough(said: Prediction, least: float, skin: bool, alone: bool) -> float:
     familiar = said.discord <= (_AT_ODDS if said.novelty <= _NO_NEWER else _MUCH_ALIKE)
     # What is seen from one side alone, as of many pieces, is sure of nothing: no other side could object.
     alone = alone and said.discord < float("inf")
-    half = _HALF * least if (familiar or alone) and not skin else least
-    return half if sum(part.certainty >= half for part in said.parts) <= _FIELD else least
+    bar = _HALF * least if (familiar or alone) and not skin else least
+    return bar if sum(part.certainty >= bar for part in said.parts) <= _FIELD else least
 
 
 def settled(said: Prediction, least: float) -> Prediction:
