@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray
+from .bounds import bounds_of, triangle_bounds
 from .materials import Build
 from .shells import Shells
 from .triangles import crosses
@@ -98,15 +99,17 @@ def _containments(shells: Shells, ids: IntArray, volumes: FloatArray) -> list[Co
     triangles = shells.triangles @ _ODD_ROTATION.T
     split = shells.split()
     turned = [triangles[split[i]] for i in ids]
-    lower = np.array([t.min(axis=(0, 1)) for t in turned])
-    upper = np.array([t.max(axis=(0, 1)) for t in turned])
+    boxes = [triangle_bounds(t) for t in turned]
+    lower, upper = (
+        np.array(sides) for sides in zip(*(bounds_of(t.reshape(-1, 3)) for t in turned), strict=True)
+    )
     probes = np.array([_point_inside(p) for p in turned])
     result = []
     for index in np.argsort(-volumes, kind="stable")[:_MOST_CONTAINERS]:
         near = (lower >= lower[index]).all(axis=1) & (upper <= upper[index]).all(axis=1)
         near &= volumes < volumes[index]
         inside = np.zeros(len(ids), dtype=bool)
-        inside[near] = [_winding(turned[index], probe) != 0 for probe in probes[near]]
+        inside[near] = [_winding(turned[index], boxes[index], probe) != 0 for probe in probes[near]]
         if inside.any():
             result.append((int(index), inside))
     return result
@@ -122,10 +125,11 @@ def _point_inside(triangles: FloatArray) -> FloatArray:
     return np.asarray(triangles[largest].mean(axis=0) - normal * 1e-4 * np.sqrt(length[largest]))
 
 
-def _winding(triangles: FloatArray, point: FloatArray) -> int:
-    """How often (F, 3, 3) closed triangles go around a point: signed hits of a ray along +z."""
-    low, high = triangles.min(axis=1), triangles.max(axis=1)
-    near = ((low <= point)[:, :2] & (high >= point)[:, :2]).all(axis=1) & (high[:, 2] > point[2])
+def _winding(triangles: FloatArray, boxes: tuple[FloatArray, FloatArray], point: FloatArray) -> int:
+    """How often (F, 3, 3) closed triangles, in boxes, go around a point: signed hits of a ray along +z."""
+    low, high = boxes
+    near = (low[:, 0] <= point[0]) & (high[:, 0] >= point[0]) & (low[:, 1] <= point[1])
+    near &= (high[:, 1] >= point[1]) & (high[:, 2] > point[2])
     corners = triangles[near] - point
     following = corners[:, [1, 2, 0]]
     sides = corners[..., 0] * following[..., 1] - corners[..., 1] * following[..., 0]
