@@ -25,9 +25,13 @@ def machine() -> tuple[Finding, ...]:
     )
 
 
+def usable_cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
 def _processor() -> str:
-    usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return f"{platform.machine()}, {usable} of {os.cpu_count()} cores usable"
+    return f"{platform.machine()}, {usable_cores()} of {os.cpu_count()} cores usable"
 
 
 def _memory() -> str:

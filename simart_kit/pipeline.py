@@ -14,6 +14,7 @@ from .asset import Asset, clean_name
 from .asset_io import save_asset
 from .checks import run_checks
 from .checks.subject import Subject
+from .drawing.painter import Painter
 from .errors import SimartKitError, StageError
 from .exports import export_all
 from .loading import Source, read_source, source_path
@@ -102,11 +103,13 @@ def convert(
         with _failures_kept(runner, folder):
             runner.tell("run_started")
             loaded = _load(runner, plugins, path, up, unit)
-            segmentation = _segment(runner, plugins, resolved, loaded, wishes)
-            asset = _articulate(runner, plugins, resolved, loaded, segmentation, name, floating, wishes)
-            asset = _modify(runner, plugins, resolved, asset, loaded.stated is not None)
-            asset = asset if wishes is None else with_verdicts(asset, wishes)
-            report, mains = _write(runner, plugins, resolved, asset)
+            # A recording shows the preview even where a format fails, so then it is drawn first.
+            with Painter(len(loaded.mesh.faces), alone=record) as painter:
+                segmentation = _segment(runner, plugins, resolved, loaded, wishes)
+                asset = _articulate(runner, plugins, resolved, loaded, segmentation, name, floating, wishes)
+                asset = _modify(runner, plugins, resolved, asset, loaded.stated is not None)
+                asset = asset if wishes is None else with_verdicts(asset, wishes)
+                report, mains = _write(runner, plugins, resolved, asset, painter)
         arguments: dict[str, Any] = {"name": name, "up": up, "unit": unit, "floating": floating}
         arguments["spec"] = None if wishes is None else wishes.table()
         return _finish(runner, plugins, loaded, report, mains, folder, arguments)
@@ -175,14 +178,16 @@ def _modified(asset: Asset, modifier: Modifier) -> Asset:
     return result
 
 
-def _write(runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset) -> tuple[Report, dict[str, Path]]:
-    from .render import write_preview
-
+def _write(
+    runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset, painter: Painter
+) -> tuple[Report, dict[str, Path]]:
     work = runner.run.folder
     save_asset(asset, work)
-    runner.call("preview", "preview", write_preview, asset, work / "preview.png")
+    drawn = runner.call("preview", "preview", painter.begin, asset, work)
     mains, unsupported = export_all(runner, plugins, recipe, asset)
     checks = runner.call("check", "checks", run_checks, build_checks(recipe, plugins), Subject(mains, asset))
+    if not drawn:
+        runner.call("preview", "awaited", painter.finish)
     report = Report(runner.run.name, asset, checks, asset.notes + runner.notes, unsupported, runner.seconds)
     runner.tell("run_finished", report=report)
     write_json(work / "report.json", report.table())

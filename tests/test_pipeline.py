@@ -15,7 +15,8 @@ from .workshop import Camera, Workshop, contents
 @pytest.fixture
 def shop(tmp_path, monkeypatch) -> Workshop:
     # Real pictures take seconds and have their own tests.
-    monkeypatch.setattr("simart_kit.render.write_preview", lambda asset, path: path.write_bytes(b"picture"))
+    quick = "simart_kit.drawing.painter.write_preview"
+    monkeypatch.setattr(quick, lambda asset, path: path.write_bytes(b"picture"))
     return Workshop(tmp_path)
 
 

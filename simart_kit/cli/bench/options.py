@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Annotated
 
@@ -36,8 +35,3 @@ Timeout = Annotated[
 NoPictures = Annotated[bool, typer.Option("--no-pictures", help="Draw no pictures for the page.")]
 Retry = Annotated[bool, typer.Option("--retry", help="Do objects again that failed.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but errors.")]
-
-
-def processors() -> int:
-    """How many of them this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -21,7 +21,6 @@ from .options import (
     Retry,
     Timeout,
     Variant,
-    processors,
 )
 
 RecipeName = Annotated[
@@ -55,6 +54,7 @@ def run(
     with stdout_kept(json):
         from ...bench.run import Plan
         from ...bench.worker import Conversions
+        from ...machine import usable_cores
         from ...recipe import check_extras, load_recipe
         from .perform import perform, tell
 
@@ -69,7 +69,7 @@ def run(
             protocol=protocol,
             variant=variant,
             only=tuple(only or ()),
-            jobs=jobs or processors(),
+            jobs=jobs or usable_cores(),
             timeout=timeout,
             pictures=not no_pictures,
             retry=retry,

@@ -22,7 +22,6 @@ from .options import (
     Retry,
     Timeout,
     Variant,
-    processors,
 )
 
 Up = Annotated[
@@ -70,6 +69,7 @@ def score(
         from ...bench.frame import Placement
         from ...bench.run import Plan
         from ...bench.worker import Predictions
+        from ...machine import usable_cores
         from .perform import perform, tell
 
         if predictions.is_file():
@@ -84,7 +84,7 @@ def score(
             protocol=protocol,
             variant=variant,
             only=tuple(only or ()),
-            jobs=jobs or processors(),
+            jobs=jobs or usable_cores(),
             timeout=timeout,
             pictures=not no_pictures,
             retry=retry,

@@ -1,0 +1,77 @@
+"""The preview, drawn by a second core in a process of its own while formats are written and checked."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+from ..asset import Asset
+from ..machine import usable_cores
+from ..render import write_preview
+
+_WORKER = (sys.executable, "-P", "-m", f"{__package__}.painter_worker")
+_MANY = 5_000  # faces from which on drawing takes longer than the start of a process
+
+
+class Painter:
+    """Draws one preview; for a mesh of many faces beside what the caller does until it asks for it.
+
+    The process is there from the start, so that what it imports is too. Use it as a context: leaving ends it.
+
+    Args:
+        faces: how many the mesh has.
+        alone: draw at once in any case, without a process.
+        worker: command that answers as `painter_worker` does.
+    """
+
+    def __init__(self, faces: int, *, alone: bool = False, worker: tuple[str, ...] = _WORKER) -> None:
+        beside = not alone and faces >= _MANY and usable_cores() > 1
+        self._process = _started(worker) if beside else None
+        self._asked: tuple[Asset, Path] | None = None
+
+    def __enter__(self) -> Painter:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._process is not None:
+            with self._process as process:
+                process.kill()
+
+    def begin(self, asset: Asset, folder: Path) -> bool:
+        """Draw `folder/preview.png`, or let it be drawn.
+
+        Args:
+            asset: as saved in the folder.
+            folder: of asset.json and parts.npz.
+
+        Returns:
+            Whether it is there; else `finish` has to be called.
+        """
+        if self._process is None:
+            write_preview(asset, folder / "preview.png")
+            return True
+        self._asked = asset, folder
+        assert self._process.stdin is not None
+        with suppress(OSError), self._process.stdin as told:  # one that ended is seen by `finish`
+            told.write(os.fsencode(folder.resolve()))
+        return False
+
+    def finish(self) -> None:
+        """Wait until the preview is there; what the process could not draw is drawn now, or says why not."""
+        if self._process is not None and self._asked is not None and self._process.wait():
+            asset, folder = self._asked
+            write_preview(asset, folder / "preview.png")
+
+
+def _started(worker: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
+    """The process, in a session of its own, for an interrupt is the caller's to answer; None for no room."""
+    quiet = subprocess.DEVNULL
+    try:
+        return subprocess.Popen(
+            worker, stdin=subprocess.PIPE, stdout=quiet, stderr=quiet, start_new_session=True
+        )
+    except OSError:
+        return None
