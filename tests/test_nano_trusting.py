@@ -52,23 +52,6 @@ def test_half_is_enough_where_geometry_finds_nothing():
     assert kept(replace(new, discord=float("inf")), alone=True) == []  # seen from one side
 
 
-def field(count, certainty, **told):
-    keys = [part(piece, certainty) for piece in range(1, count + 1)]
-    return replace(said(*keys, **told), moves=np.full(count + 1, 0.9))
-
-
-def test_all_is_asked_where_a_whole_field_would_move():
-    assert len(kept(field(24, 0.5))) == 24
-    assert kept(field(25, 0.5)) == []
-    assert len(kept(field(25, 0.85))) == 25
-    assert len(kept(field(25, 0.5, discord=1e-5))) == 25  # recognised
-
-
-def test_what_is_not_sure_enough_anyway_is_of_no_field():
-    many = field(40, 0.3)
-    assert kept(replace(many, parts=(replace(many.parts[0], certainty=0.5), *many.parts[1:]))) == [1]
-
-
 def test_all_is_asked_on_a_skin():
     assert kept(said(part(DRAWER, 0.79)), skin=True) == []
     assert kept(said(part(DRAWER, 0.81)), skin=True) == [DRAWER]

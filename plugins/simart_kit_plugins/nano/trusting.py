@@ -18,16 +18,12 @@ _KNOWN, _HALF = 1 / 4, 1 / 2
 _MUCH_ALIKE, _NO_NEWER, _AT_ODDS = 0.002, 1.15, 0.02
 # Where geometry finds as many parts, its borders are better unless the sides differ by no more.
 _HARDLY = 0.003
-# More parts than this are a field of like things, as keys are: what is wrong of one is wrong of all.
-_FIELD = 24
 # What is less likely than this to move is sure to stand still, in what is read much alike from all sides.
 _STILL = 0.02
 
 
 def enough(said: Prediction, least: float, skin: bool, alone: bool) -> float:
     """How sure a part of an object has to be: less so in one that is like what was trained on.
-
-    Half is not enough where a whole field of parts would move by it.
 
     Args:
         said: with all parts that are worth a thought.
@@ -40,8 +36,7 @@ def enough(said: Prediction, least: float, skin: bool, alone: bool) -> float:
     familiar = said.discord <= (_AT_ODDS if said.novelty <= _NO_NEWER else _MUCH_ALIKE)
     # What is seen from one side alone, as of many pieces, is sure of nothing: no other side could object.
     alone = alone and said.discord < float("inf")
-    bar = _HALF * least if (familiar or alone) and not skin else least
-    return bar if sum(part.certainty >= bar for part in said.parts) <= _FIELD else least
+    return _HALF * least if (familiar or alone) and not skin else least
 
 
 def settled(said: Prediction, least: float) -> Prediction:

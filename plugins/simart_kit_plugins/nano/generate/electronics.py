@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from simart_kit.arrays import FloatArray
@@ -13,7 +15,8 @@ from ...shapes.primitives import Pieces, box, boxes, cylinder, prism, revolve, s
 from . import looks
 from .assembling import PAD
 from .category import Category
-from .objects import Body, Look, Motion, ball, hinge, slide, spin, surface
+from .objects import Body, GeneratedObject, Look, Motion, ball, hinge, slide, spin, surface
+from .posing import posed
 from .rigging import DOWN, LEFT, RIGHT, UP, Rig, ball_knob, lying, plate
 
 _STICK = np.array([[0, 0], [0.004, 0], [0.004, 0.008], [0.009, 0.01], [0.008, 0.013], [0, 0.012]])
@@ -48,20 +51,48 @@ def cap(dice: Dice, size: float, rise: float) -> FloatArray:
     return revolve(np.array([[0, 0], [0.5, 0], [0.48, 0.5], [0.25, 0.9], [0, 1]]) * [size, rise], 12)
 
 
-def _keyboard_deck(dice: Dice, whole: Rig, area: tuple[float, float], at: FloatArray, look: Look) -> None:
-    """Keys in an area about a point of the root: all fixed, or one row or corner of them movable."""
+def _keyboard_deck(dice: Dice, whole: Rig, area: tuple[float, float], at: FloatArray, look: Look) -> float:
+    """Keys in an area about a point of the root, and how high they stand: all fixed, or a row movable."""
     width, depth = area
     rows, columns = dice.whole(4, 6), dice.whole(10, 15)
     pitch = np.array([width / columns, depth / rows])
     size = 0.86 * pitch
-    printed, key = (box((*size, high), (0, 0, high / 2)) for high in (PAD, 0.0024))
     spots = [at + [x, y, 0] for x, y in grid(width, depth, rows, columns)]
+    if dice.chance(0.55):
+        rise = dice.between(0.0012, 0.005)
+        whole.dress(0, surface(_raised(dice, spots, pitch, columns, rise), look))
+        return rise
+    printed, key = (box((*size, high), (0, 0, high / 2)) for high in (PAD, 0.0024))
     first = dice.whole(0, rows - 1) * columns
-    live = dice.whole(3, columns) if dice.chance(0.35) else 0
+    live = dice.whole(3, columns) if dice.chance(0.5) else 0
     still = [spot for k, spot in enumerate(spots) if not first <= k < first + live]
     whole.dress(0, surface([printed + spot for spot in still], look))
     for spot in spots[first : first + live]:
         whole.add("key", press(0.0013), surface([key + spot], look))
+    return 0.0024 if live else PAD
+
+
+def _raised(dice: Dice, spots: list[FloatArray], pitch: FloatArray, columns: int, rise: float) -> Pieces:
+    """Keys that stay: flat, tapered or half sunk, in rows that begin further in or not, with a space bar."""
+    share, style = dice.between(0.78, 0.95), dice.pick(("flat", "round", "low"))
+    size, lag, space = share * pitch, dice.pick((0.0, 0.25)) * pitch[0], dice.whole(3, 6)
+    pieces: Pieces = []
+    for row in range(len(spots) // columns):
+        start, end = row * columns, (row + 1) * columns
+        x = np.array([spot[0] for spot in spots[start:end]])
+        edges = np.append(x - pitch[0] / 2, x[-1] + pitch[0] / 2)
+        edges[1:-1] += (row % 3 - 1) * lag
+        if row == 0:
+            first = (columns - space) // 2
+            edges = np.delete(edges, np.arange(first + 1, first + space))
+        for left, right in pairwise(edges):
+            wide = right - left - (pitch[0] - size[0])
+            if style == "round":
+                key = superquadric((wide, size[1], 2 * rise), 0.3, 0.2, 4)
+            else:
+                key = box((wide, size[1], rise), (0, 0, rise / 2 if style == "flat" else 0.1 * rise))
+            pieces.append(key + [(left + right) / 2, spots[start][1], spots[start][2]])
+    return pieces
 
 
 def _laptop(dice: Dice) -> list[Body]:
@@ -72,10 +103,10 @@ def _laptop(dice: Dice) -> list[Body]:
     whole = Rig(surface([form * [1, 1, thick] + [0, 0, thick / 2]], shell), label="base")
     keys = looks.plastic(dice)
     area = (width * 0.9, depth * 0.45)
-    _keyboard_deck(dice, whole, area, np.array([0, 0.17 * depth, thick]), keys)
+    rise = _keyboard_deck(dice, whole, area, np.array([0, 0.17 * depth, thick]), keys)
     pad = box((0.35 * width, 0.25 * depth, 0.0006), (0, -0.28 * depth, thick))
     whole.dress(0, surface([pad], looks.darker(shell)))
-    gap, back = 0.002, depth / 2
+    gap, back = max(rise + 0.0008, 0.002), depth / 2
     pin = np.array([0, back - 0.003, thick + gap + dice.between(0, lid / 2)])
     panel = form * [1, 0.98, lid] + [0, -0.01 * depth, thick + gap + lid / 2]
     screen = box((width * 0.92, depth * 0.85, 0.0006), (0, 0, thick + gap - 0.0003))
@@ -96,7 +127,12 @@ def _laptop(dice: Dice) -> list[Body]:
     else:
         whole.dress(0, surface(tubes, looks.darker(shell)))
         whole.add("screen", opens, *faces)
-    return whole.bodies()
+    bodies = whole.bodies()
+    if dice.chance(0.4):
+        return bodies
+    # Most that people model stand open; the screen comes last.
+    stand = [0.0] * (len(bodies) - 1) + [dice.between(1.4, 1.85)]
+    return list(posed(GeneratedObject("", tuple(bodies)), stand).bodies)
 
 
 def _flip_phone(dice: Dice) -> list[Body]:
