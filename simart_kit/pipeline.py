@@ -183,11 +183,13 @@ def _write(
 ) -> tuple[Report, dict[str, Path]]:
     work = runner.run.folder
     save_asset(asset, work)
-    drawn = runner.call("preview", "preview", painter.begin, asset, work)
+    begun = painter.begin(work)
+    if not begun:
+        runner.call("preview", "preview", painter.finish, asset, work)
     mains, unsupported = export_all(runner, plugins, recipe, asset)
     checks = runner.call("check", "checks", run_checks, build_checks(recipe, plugins), Subject(mains, asset))
-    if not drawn:
-        runner.call("preview", "awaited", painter.finish)
+    if begun:
+        runner.call("preview", "preview", painter.finish, asset, work)
     report = Report(runner.run.name, asset, checks, asset.notes + runner.notes, unsupported, runner.seconds)
     runner.tell("run_finished", report=report)
     write_json(work / "report.json", report.table())

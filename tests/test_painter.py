@@ -36,8 +36,8 @@ def test_a_process_draws_the_same_picture(
 ) -> None:
     monkeypatch.setattr(painter, "write_preview", None)  # this process draws nothing
     with Painter(MANY) as beside:
-        assert not beside.begin(asset, tmp_path)
-        beside.finish()
+        assert beside.begin(tmp_path)
+        beside.finish(asset, tmp_path)
         assert (tmp_path / "preview.png").read_bytes() == preview_png(asset)
 
 
@@ -48,14 +48,15 @@ def test_a_process_draws_the_same_picture(
 )
 def test_what_the_process_cannot_draw_is_drawn_here(asset: Asset, tmp_path: Path, program: str) -> None:
     with Painter(MANY, worker=(sys.executable, "-c", program)) as beside:
-        assert not beside.begin(asset, tmp_path)
-        beside.finish()
+        assert beside.begin(tmp_path)
+        beside.finish(asset, tmp_path)
     assert (tmp_path / "preview.png").read_bytes() == preview_png(asset)
 
 
 def test_where_no_process_can_be_started_it_is_drawn_here(asset: Asset, tmp_path: Path) -> None:
     with Painter(MANY, worker=(str(tmp_path / "no such program"),)) as beside:
-        assert beside.begin(asset, tmp_path)
+        assert not beside.begin(tmp_path)
+        beside.finish(asset, tmp_path)
     assert (tmp_path / "preview.png").exists()
 
 
@@ -68,8 +69,9 @@ def test_a_small_mesh_a_recorded_run_and_a_single_core_need_no_process(
     asset: Asset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, faces: int, alone: bool, cores: int
 ) -> None:
     monkeypatch.setattr(painter, "usable_cores", lambda: cores)
-    with Painter(faces, alone=alone, worker=(str(tmp_path / "must not be started"),)) as beside:
-        assert beside.begin(asset, tmp_path)
+    with Painter(faces, alone=alone) as beside:
+        assert not beside.begin(tmp_path)
+        beside.finish(asset, tmp_path)
     assert (tmp_path / "preview.png").exists()
 
 

@@ -30,7 +30,6 @@ class Painter:
     def __init__(self, faces: int, *, alone: bool = False, worker: tuple[str, ...] = _WORKER) -> None:
         beside = not alone and faces >= _MANY and usable_cores() > 1
         self._process = _started(worker) if beside else None
-        self._asked: tuple[Asset, Path] | None = None
 
     def __enter__(self) -> Painter:
         return self
@@ -40,29 +39,21 @@ class Painter:
             with self._process as process:
                 process.kill()
 
-    def begin(self, asset: Asset, folder: Path) -> bool:
-        """Draw `folder/preview.png`, or let it be drawn.
-
-        Args:
-            asset: as saved in the folder.
-            folder: of asset.json and parts.npz.
-
-        Returns:
-            Whether it is there; else `finish` has to be called.
-        """
+    def begin(self, folder: Path) -> bool:
+        """Let `folder/preview.png` be drawn of the asset saved there; False where nobody stands by."""
         if self._process is None:
-            write_preview(asset, folder / "preview.png")
-            return True
-        self._asked = asset, folder
+            return False
         assert self._process.stdin is not None
         with suppress(OSError), self._process.stdin as told:  # one that ended is seen by `finish`
             told.write(os.fsencode(folder.resolve()))
-        return False
+        return True
 
-    def finish(self) -> None:
-        """Wait until the preview is there; what the process could not draw is drawn now, or says why not."""
-        if self._process is not None and self._asked is not None and self._process.wait():
-            asset, folder = self._asked
+    def finish(self, asset: Asset, folder: Path) -> None:
+        """See to it that `folder/preview.png` is there.
+
+        Wait for the process, if one has begun; what it could not draw is drawn now, or says why not.
+        """
+        if self._process is None or self._process.wait() != 0:
             write_preview(asset, folder / "preview.png")
 
 
