@@ -103,7 +103,6 @@ def convert(
         with _failures_kept(runner, folder):
             runner.tell("run_started")
             loaded = _load(runner, plugins, path, up, unit)
-            # A recording shows the preview even where a format fails, so then it is drawn first.
             with Painter(len(loaded.mesh.faces), alone=record) as painter:
                 segmentation = _segment(runner, plugins, resolved, loaded, wishes)
                 asset = _articulate(runner, plugins, resolved, loaded, segmentation, name, floating, wishes)

@@ -23,7 +23,8 @@ class Painter:
 
     Args:
         faces: how many the mesh has.
-        alone: draw at once in any case, without a process.
+        alone: without a process in any case, as for a recording: it shows the preview even where a format
+            fails, so that this comes first.
         worker: command that answers as `painter_worker` does.
     """
 
