@@ -128,7 +128,7 @@ def test_a_mistake_is_one_line_and_an_exit_code(home, capfd, arguments, code, to
 
 
 def test_a_bug_is_one_line_that_asks_for_a_report_and_verbose_shows_where(home, capfd, monkeypatch):
-    monkeypatch.setattr("simart_kit.drawing.painter.write_preview", lambda asset, path: 1 / 0)
+    monkeypatch.setattr("simart_kit.render.write_preview", lambda asset, path: 1 / 0)
 
     assert run(CONVERT) == 1
     assert capfd.readouterr().err.splitlines()[-1] == (

@@ -34,7 +34,7 @@ def _two_cores(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_process_draws_the_same_picture(
     asset: Asset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(painter, "write_preview", None)  # this process draws nothing
+    monkeypatch.setattr("simart_kit.render.write_preview", None)  # this process draws nothing
     with Painter(MANY) as beside:
         assert beside.begin(tmp_path)
         beside.finish(asset, tmp_path)
@@ -69,10 +69,11 @@ def test_a_small_mesh_a_recorded_run_and_a_single_core_need_no_process(
     asset: Asset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, faces: int, alone: bool, cores: int
 ) -> None:
     monkeypatch.setattr(painter, "usable_cores", lambda: cores)
+    monkeypatch.setattr("simart_kit.render.write_preview", lambda asset, path: path.write_bytes(b"picture"))
     with Painter(faces, alone=alone) as beside:
         assert not beside.begin(tmp_path)
         beside.finish(asset, tmp_path)
-    assert (tmp_path / "preview.png").exists()
+    assert (tmp_path / "preview.png").read_bytes() == b"picture"
 
 
 def test_leaving_early_ends_the_process(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from .workshop import Camera, Workshop, contents
 @pytest.fixture
 def shop(tmp_path, monkeypatch) -> Workshop:
     # Real pictures take seconds and have their own tests.
-    quick = "simart_kit.drawing.painter.write_preview"
+    quick = "simart_kit.render.write_preview"
     monkeypatch.setattr(quick, lambda asset, path: path.write_bytes(b"picture"))
     return Workshop(tmp_path)
 

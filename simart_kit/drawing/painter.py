@@ -8,9 +8,9 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
+from .. import render
 from ..asset import Asset
 from ..machine import usable_cores
-from ..render import write_preview
 
 _WORKER = (sys.executable, "-P", "-m", f"{__package__}.painter_worker")
 _MANY = 5_000  # faces from which on drawing takes longer than the start of a process
@@ -55,7 +55,7 @@ class Painter:
         Wait for the process, if one has begun; what it could not draw is drawn now, or says why not.
         """
         if self._process is None or self._process.wait() != 0:
-            write_preview(asset, folder / "preview.png")
+            render.write_preview(asset, folder / "preview.png")
 
 
 def _started(worker: tuple[str, ...]) -> subprocess.Popen[bytes] | None:
