@@ -22,13 +22,14 @@ import simart_kit as sk
 import simart_kit.render
 
 CONVERTED = Path(__file__).with_name("converted.txt")
-# Real pictures take seconds and have their own tests.
-simart_kit.render.write_preview = lambda asset, path: path.write_bytes(b"picture")
 
 class Cabinets(sk.Segmenter):
     """Knows one cabinet only; of anything else it says that it is one body."""
     name = "cabinets"
     def segment(self, mesh):
+        # Real pictures take seconds and have their own tests. Only processes of the bench come here:
+        # the tests' own reads this file too, and would never draw again.
+        simart_kit.render.write_preview = lambda asset, path: path.write_bytes(b"picture")
         if len(mesh.faces) != 48:
             return sk.Segmentation(np.zeros(len(mesh.faces), int), (sk.PartGuess("body"),))
         names = ("body", "door_left", "door_right", "drawer")
