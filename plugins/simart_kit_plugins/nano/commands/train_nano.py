@@ -26,7 +26,14 @@ Objects = Annotated[int | None, typer.Option(min=1, metavar="N", help="Made-up o
 Steps = Annotated[int | None, typer.Option(min=1, metavar="N", help="Steps of training.")]
 Batch = Annotated[int | None, typer.Option(min=1, metavar="N", help="Objects a step.")]
 SkinShare = Annotated[float | None, typer.Option(metavar="X", help="Share of objects that are one skin.")]
-HeldOut = Annotated[int | None, typer.Option(min=1, metavar="N", help="Objects to judge on.")]
+HeldOut = Annotated[
+    int | None,
+    typer.Option(
+        min=1,
+        metavar="N",
+        help="Objects to judge on, and to measure novelty by: with less than some hundreds, all looks new.",
+    ),
+]
 Rate = Annotated[float | None, typer.Option(metavar="X", help="Step size of AdamW.")]
 Start = Annotated[
     Path | None,

@@ -31,7 +31,9 @@ class TrainingPlan(Table):
     """Data, schedule and network; equal plans give equal weights on one kind of device."""
 
     objects: int = Field(default=40_000, gt=0, description="Made-up objects to train on.")
-    held_out: int = Field(default=600, gt=0, description="Objects to judge on, of another seed.")
+    held_out: int = Field(
+        default=600, gt=0, description="Objects to judge on, of another seed; novelty is measured by as many."
+    )
     unseen: tuple[str, ...] = Field(default=UNSEEN, description="Categories to judge on and not to train on.")
     static_share: float = Field(default=0.2, ge=0, le=1, description="Share of objects that do not move.")
     nameless_share: float = Field(
