@@ -31,7 +31,7 @@ HeldOut = Annotated[
     typer.Option(
         min=1,
         metavar="N",
-        help="Objects to judge on, and to measure novelty by: with less than some hundreds, all looks new.",
+        help="Objects to judge on, and to measure novelty by: with fewer than some hundreds, all looks new.",
     ),
 ]
 Rate = Annotated[float | None, typer.Option(metavar="X", help="Step size of AdamW.")]
