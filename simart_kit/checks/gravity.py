@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from pydantic import Field
 
 from ..arrays import FloatArray
 from ..bench.mujoco_driving import rest_positions
+from ..machine import usable_cores
 from ..stages import Check
 from ..stages import Options as StageOptions
 from . import CheckResult
@@ -47,11 +50,14 @@ class Gravity(Check):
         model = subject.simulation.model
         rows, waits = dict[str, dict[str, Any]](), dict[str, tuple[str, ...]]()
         spans: dict[str, tuple[float, float]] = {}
-        for joint, span in ranges(model).items():
+        found, rest = ranges(model), rest_positions(model)
+        alone = partial(_held, model, seconds=self.options.seconds, others=rest)
+        with ThreadPoolExecutor(usable_cores()) as pool:  # MuJoCo steps without the interpreter
+            rested = list(pool.map(alone, found, found.values()))
+        for (joint, span), row in zip(found.items(), rested, strict=True):
             name, way = joint_name(model, joint), None
-            spans[name] = span
-            rows[name] = _held(model, joint, span, self.options.seconds, rest_positions(model))
-            if not self._holds(rows[name], span):
+            spans[name], rows[name] = span, row
+            if not self._holds(row, span):
                 way = subject.simulation.ways.way(joint)
             if way and way.opened:
                 held = _held(model, joint, span, self.options.seconds, way.positions)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -87,16 +88,19 @@ class Nano(Segmenter):
         folder = Path(self.options.model) if self.options.model else shipped_folder()
         model = read_model(folder)
         seen = mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(self.seed))
-        said = predict(model.network, seen.cloud, self.options.votes, model.statistics)
+        # With a spec, a skin is cut by what the network says of its patches; else geometry finds more on it.
+        asked = self.options.pool and not (seen.skin and spec is not None)
+        with ThreadPoolExecutor(1) as beside:  # the network's products leave the interpreter to geometry
+            saying = beside.submit(predict, model.network, seen.cloud, self.options.votes, model.statistics)
+            geometry = of_geometry(mesh, self.seed) if asked else []
+            said = saying.result()
         material = partial(model.known.material, said.category)
         still = sum(said.categories[name] for name in model.known.still)
         if spec is not None and spec.moves:
             still = 0.0
         moves = still < _STILL
-        # With a spec, a skin is cut by what the network says of its patches; else geometry finds more on it.
-        asked = self.options.pool and moves and not (seen.skin and spec is not None)
-        geometry = of_geometry(mesh, self.seed) if asked else []
-        bar = enough(said, self.options.least, seen.skin, alone=asked and not geometry)
+        geometry = geometry if moves else []
+        bar = enough(said, self.options.least, seen.skin, alone=asked and moves and not geometry)
         said = settled(said, bar)
         fronts = with_body(mesh, geometry) if seen.skin else []
         if fronts or not moves:
