@@ -13,6 +13,7 @@ from simart_kit_plugins.nano.grouping import groups, piece_parts
 from simart_kit_plugins.nano.knowledge import Knowledge
 from simart_kit_plugins.nano.meshes import MOST_PIECES, mesh_cloud
 from simart_kit_plugins.nano.network import NanoNetwork
+from simart_kit_plugins.nano.proposals import of_geometry
 from simart_kit_plugins.nano.reading import PartsRead, PiecesRead
 from simart_kit_plugins.nano.segmenter import Nano
 from simart_kit_plugins.nano.trusting import enough
@@ -275,6 +276,25 @@ def test_the_network_is_alone_where_geometry_is_asked_and_finds_nothing(monkeypa
     )
     Nano(read_options(Nano, {"model": "any", "pool": pool})).segment(asset.mesh)
     assert told == [alone]
+
+
+@pytest.mark.parametrize(
+    ("still", "most", "asked"), [((), 0, 1), ((), 1000, 1), (("cabinet",), 0, 0), (("cabinet",), 1000, 1)]
+)
+def test_of_many_faces_that_stand_still_geometry_is_not_asked(monkeypatch, still, most, asked):
+    asset = cabinet_asset()
+    model = Told(Oracle([0] * 5, False), Knowledge(materials={}, still=still))
+    monkeypatch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: model)
+    monkeypatch.setattr("simart_kit_plugins.nano.segmenter._MANY", most)
+    calls = []
+    monkeypatch.setattr(
+        "simart_kit_plugins.nano.proposals.of_geometry",
+        lambda mesh, seed: calls.append(mesh) or of_geometry(mesh, seed),
+    )
+    # Seen from one side alone the network is not sure enough to speak against geometry.
+    found = Nano(read_options(Nano, {"model": "any", "votes": 1})).segment(asset.mesh)
+    assert len(calls) == asked
+    assert bool(found.joints) == (not still)
 
 
 def test_candidates_that_say_the_same_are_alike():

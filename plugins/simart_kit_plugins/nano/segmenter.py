@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 _SKIN = "the surface is one fused skin, in which parts are often missed or wrong: look at it"
 # Nothing moves from this chance on that the object is of a category of which nothing does.
 _STILL = 0.95
+# Of more faces geometry is asked only once it is known that something moves: it takes longer than it saves.
+_MANY = 100_000
 
 
 class Nano(Segmenter):
@@ -92,14 +94,18 @@ class Nano(Segmenter):
         asked = self.options.pool and not (seen.skin and spec is not None)
         with ThreadPoolExecutor(1) as beside:  # the network's products leave the interpreter to geometry
             saying = beside.submit(predict, model.network, seen.cloud, self.options.votes, model.statistics)
-            geometry = of_geometry(mesh, self.seed) if asked else []
+            at_once = asked and len(mesh.faces) <= _MANY
+            geometry = of_geometry(mesh, self.seed) if at_once else []
             said = saying.result()
         material = partial(model.known.material, said.category)
         still = sum(said.categories[name] for name in model.known.still)
         if spec is not None and spec.moves:
             still = 0.0
         moves = still < _STILL
-        geometry = geometry if moves else []
+        if not moves:
+            geometry = []
+        elif asked and not at_once:
+            geometry = of_geometry(mesh, self.seed)
         bar = enough(said, self.options.least, seen.skin, alone=asked and moves and not geometry)
         said = settled(said, bar)
         fronts = with_body(mesh, geometry) if seen.skin else []
