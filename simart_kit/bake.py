@@ -13,6 +13,7 @@ from .kept import kept
 from .mesh import Image, VisualMaterial
 from .srgb import tinted
 from .surfaces import Surface, asset_surfaces
+from .topology import unique_rows
 
 Color = tuple[float, float, float, float]
 
@@ -52,13 +53,14 @@ def bake_colors(surface: Surface) -> Surface:
     corners = surface.colors[surface.faces]
     order = _least_clamped(corners)
     triples = np.take_along_axis(corners, order[:, :, None], axis=1)
-    cells, cell = np.unique(triples.reshape(-1, 12), axis=0, return_inverse=True)
-    cells = cells.reshape(-1, 3, 4)
+    _, color = unique_rows(surface.colors.view(">u4").astype(np.int64))
+    first, cell = unique_rows(np.take_along_axis(color[surface.faces], order, axis=1))
+    cells = triples[first]
 
     texel = np.argsort(order, axis=1)
     one_color = (cells == cells[:, :1]).all(axis=(1, 2))
-    texel[one_color[cell.ravel()]] = 0
-    place = cell.reshape(-1, 1) * 3 + texel
+    texel[one_color[cell]] = 0
+    place = cell[:, None] * 3 + texel
     used, faces = np.unique(surface.faces.astype(np.int64) * 3 * len(cells) + place, return_inverse=True)
     vertex, place = np.divmod(used, 3 * len(cells))
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray, frozen_ints
+from .kept import kept
 from .mesh import Mesh
 from .skins.relief import is_fine, relief_pieces
 from .topology import connected, first_alike, half_edges, shared_by_two, touching, weld
@@ -57,7 +58,7 @@ def find_segments(
     vertex: IntArray | None = None,
     relief: bool = False,
 ) -> Segments:
-    """Cut a mesh into segments.
+    """Cut a mesh into segments; the mesh keeps those of each kind.
 
     Args:
         mesh: faces keep their order; nothing is removed from it.
@@ -67,8 +68,41 @@ def find_segments(
         relief: cut a finely meshed fused component into few pieces, as `relief_pieces` does, and not into
             patches: a rough one has thousands.
     """
-    if vertex is None:
-        vertex = weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE)
+    if vertex is not None:
+        return _cut(mesh, _cleaned(mesh, vertex), crease, node_hint, relief)
+    return _segments_of(mesh, crease, node_hint, relief)
+
+
+@kept
+def _segments_of(mesh: Mesh, crease: float, node_hint: bool, relief: bool) -> Segments:
+    return _cut(mesh, _faces_of(mesh), crease, node_hint, relief)
+
+
+@dataclass(frozen=True, eq=False)
+class _Faces:
+    """What the faces of a mesh meet at, and which of them are looked at.
+
+    Attributes:
+        vertex: (V,) welded id of every vertex of the mesh.
+        corners: (F, 3) welded ids, those of solids that fill holes apart from the others.
+        first: (F,) first face with the same corners.
+        degenerate: (F,) whether a face has no area.
+        duplicate: (F,) whether a face with area repeats an earlier one.
+    """
+
+    vertex: IntArray
+    corners: IntArray
+    first: IntArray
+    degenerate: BoolArray
+    duplicate: BoolArray
+
+
+@kept
+def _faces_of(mesh: Mesh) -> _Faces:
+    return _cleaned(mesh, weld(mesh.vertices, mesh.diagonal * WELD_TOLERANCE))
+
+
+def _cleaned(mesh: Mesh, vertex: IntArray) -> _Faces:
     corners = vertex.astype(np.int32).take(mesh.faces)
     degenerate = _degenerate(mesh, corners)
     with_area = np.flatnonzero(~degenerate)
@@ -78,21 +112,25 @@ def find_segments(
         corners = corners + int(vertex.max() + 1) * plug
     first = first_alike(corners)
     duplicate = (first != np.arange(len(corners))) & ~degenerate
-    kept = np.flatnonzero(~degenerate & ~duplicate)
-    keys = corners
+    return _Faces(vertex, corners, first, degenerate, duplicate)
+
+
+def _cut(mesh: Mesh, of: _Faces, crease: float, node_hint: bool, relief: bool) -> Segments:
+    looked_at = np.flatnonzero(~of.degenerate & ~of.duplicate)
+    keys = of.corners
     if node_hint and mesh.face_node is not None:
-        keys = corners + int(corners.max() + 1) * mesh.face_node[:, None]
-    found, fused = _pieces(mesh, keys.take(kept, axis=0), kept, crease, relief)
-    labels = np.zeros(len(corners), dtype=np.int64)
-    labels[kept] = _by_area(found, mesh.face_areas.take(kept))
-    labels[degenerate] = _largest_beside(labels, corners, degenerate, kept)
-    labels[duplicate] = labels[first[duplicate]]
+        keys = keys + int(keys.max() + 1) * mesh.face_node[:, None]
+    found, fused = _pieces(mesh, keys.take(looked_at, axis=0), looked_at, crease, relief)
+    labels = np.zeros(len(keys), dtype=np.int64)
+    labels[looked_at] = _by_area(found, mesh.face_areas.take(looked_at))
+    labels[of.degenerate] = _largest_beside(labels, of.corners, of.degenerate, looked_at)
+    labels[of.duplicate] = labels[of.first[of.duplicate]]
     return Segments(
         frozen_ints(labels),
-        vertex,
+        of.vertex,
         int(labels.max()) + 1,
-        int(duplicate.sum()),
-        int(degenerate.sum()),
+        int(of.duplicate.sum()),
+        int(of.degenerate.sum()),
         fused,
     )
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 from simart_kit_plugins.geometric.predictor import GeometricJoints
+from simart_kit_plugins.geometric.scene import make_scene
 from simart_kit_plugins.geometric.segmenter import Geometric
 
 import simart_kit as sk
@@ -388,3 +389,15 @@ def test_a_noisy_skin_is_told_and_taken_as_static() -> None:
     segmentation = Geometric().segment(Mesh(rough, skin.faces))
     assert len(segmentation.parts) == 1
     assert [n.level for n in segmentation.notes if "fused skin" in n.text] == ["warning"]
+
+
+def test_scenes_of_one_mesh_share_its_faces() -> None:
+    """What takes long about them does not depend on the pieces."""
+    mesh = boxes_mesh([((0, 0, 0), (1, 1, 1)), ((2, 0, 0), (3, 1, 1))])
+    whole = make_scene(mesh, np.zeros(24, dtype=np.int32))
+    parted = make_scene(mesh, np.repeat(np.array([0, 1], dtype=np.int32), 12))
+    assert parted.rays is whole.rays
+    assert parted.triangles is whole.triangles
+    assert (whole.count, parted.count) == (1, 2)
+    np.testing.assert_allclose(whole.areas, [12 / whole.size**2])
+    np.testing.assert_allclose(parted.areas, np.full(2, 6 / whole.size**2))

@@ -1,5 +1,7 @@
 from dataclasses import dataclass, fields, replace
 
+import numpy as np
+
 from simart_kit.asset import Asset
 from simart_kit.kept import kept
 from simart_kit.testing.meshes import cabinet_asset
@@ -46,6 +48,19 @@ class TestKept:
 
         box = Box(3.0)
         assert (half(box), twice(box), half(box)) == (1.5, 6.0, 1.5)
+
+    def test_tells_questions_apart_by_their_words(self) -> None:
+        asked = []
+
+        @kept
+        def scaled(box: Box, factor: float, upward: bool = False) -> float:
+            asked.append((factor, upward))
+            return box.width * factor + upward
+
+        box = Box(3.0)
+        assert [scaled(box, 2.0), scaled(box, 3.0), scaled(box, 2.0, upward=True)] == [6.0, 9.0, 7.0]
+        assert [scaled(box, np.float64(2.0)), scaled(box, 2.0, upward=True)] == [6.0, 7.0]
+        assert asked == [(2.0, False), (3.0, False), (2.0, True)]
 
     def test_a_changed_copy_starts_anew(self) -> None:
         @kept

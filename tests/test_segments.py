@@ -48,6 +48,20 @@ def fused_steps() -> Mesh:
     return Mesh(np.concatenate([front, back]), faces)
 
 
+class TestKeeping:
+    def test_a_mesh_is_cut_once_in_each_way(self) -> None:
+        mesh = cabinet_mesh()
+        plain = find_segments(mesh)
+        assert find_segments(mesh) is plain
+        assert find_segments(mesh, crease=0.1) is not plain
+        assert find_segments(mesh, relief=True) is find_segments(mesh, relief=True) is not plain
+        assert find_segments(mesh, vertex=plain.vertex) is not plain
+
+    def test_a_copy_is_cut_anew(self) -> None:
+        mesh = cabinet_mesh()
+        assert find_segments(replace(mesh)) is not find_segments(mesh)
+
+
 class TestComponents:
     def test_boxes_apart_are_segments_largest_first(self) -> None:
         segments = find_segments(boxes_mesh(THREE))

@@ -211,15 +211,8 @@ def _hardware(pieces: Scene, scene: Scene, body: int) -> Scene | None:
     if not len(faces):
         return None
     _, labels = np.unique(pieces.labels[faces], return_inverse=True)
-    return Scene(
-        pieces.vertices,
-        pieces.faces[faces],
-        labels,
-        int(labels.max()) + 1,
-        pieces.aligned_from_asset,
-        pieces.size,
-        pieces.origin,
-    )
+    surface = replace(pieces.surface, faces=pieces.faces[faces])
+    return Scene(surface, labels, int(labels.max()) + 1)
 
 
 def _posts(pieces: Scene, scene: Scene, body: int) -> tuple[Box, ...]:

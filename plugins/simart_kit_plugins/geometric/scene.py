@@ -8,12 +8,12 @@ from functools import cached_property
 
 import numpy as np
 
-from simart_kit.alignment import yaw
 from simart_kit.arrays import FloatArray, IntArray
 from simart_kit.bounds import bounds_of, triangle_bounds
-from simart_kit.kinematics import rotation
 from simart_kit.mesh import Mesh
 from simart_kit.rays import Rays
+
+from .aligned import Aligned, aligned
 
 # Directions that something may open to, as rows (u, v, w): u across, v up, w outward. The last opens upward.
 FACINGS: dict[str, FloatArray] = {
@@ -92,32 +92,49 @@ class Scene:
     """Faces in the aligned frame, grouped into pieces.
 
     Attributes:
-        vertices: (V, 3); the object's diagonal is 1.
-        faces: (F, 3) vertex indices.
+        surface: the faces.
         labels: (F,) piece of each face, 0..count-1.
         count: number of pieces.
-        aligned_from_asset: (3, 3) rotation about the vertical.
-        size: diagonal of the object [m].
-        origin: (3,) point of the asset frame that is the aligned frame's origin [m].
     """
 
-    vertices: FloatArray
-    faces: IntArray
+    surface: Aligned
     labels: IntArray
     count: int
-    aligned_from_asset: FloatArray
-    size: float
-    origin: FloatArray
 
-    @cached_property
+    @property
+    def vertices(self) -> FloatArray:
+        """(V, 3); the object's diagonal is 1."""
+        return self.surface.vertices
+
+    @property
+    def faces(self) -> IntArray:
+        """(F, 3) vertex indices."""
+        return self.surface.faces
+
+    @property
     def triangles(self) -> FloatArray:
         """(F, 3, 3) corners."""
-        return np.asarray(self.vertices[self.faces])
+        return self.surface.triangles
 
-    @cached_property
+    @property
     def rays(self) -> Rays:
         """All faces, for casting."""
-        return Rays(self.vertices, self.faces)
+        return self.surface.rays
+
+    @property
+    def face_areas(self) -> FloatArray:
+        """(F,) area of each face."""
+        return self.surface.face_areas
+
+    @property
+    def normals(self) -> FloatArray:
+        """(F, 3) unit normals, zero where a face has no area."""
+        return self.surface.normals
+
+    @property
+    def size(self) -> float:
+        """Diagonal of the object [m]."""
+        return self.surface.size
 
     @cached_property
     def bounds(self) -> FloatArray:
@@ -144,21 +161,6 @@ class Scene:
         """(count,) surface of each piece."""
         return np.asarray(np.bincount(self.labels, self.face_areas, self.count), dtype=np.float64)
 
-    @cached_property
-    def face_areas(self) -> FloatArray:
-        """(F,) area of each face."""
-        return np.asarray(np.linalg.norm(self._crosses, axis=1) / 2)
-
-    @cached_property
-    def normals(self) -> FloatArray:
-        """(F, 3) unit normals, zero where a face has no area."""
-        return self._crosses / np.maximum(2 * self.face_areas[:, None], 1e-30)
-
-    @cached_property
-    def _crosses(self) -> FloatArray:
-        edges = self.triangles[:, 1:] - self.triangles[:, :1]
-        return np.cross(edges[:, 0], edges[:, 1])
-
     def points_of(self, piece: int) -> FloatArray:
         """(N, 3) corners of the triangles of a piece, each as often as it is one."""
         return np.asarray(self.triangles[self.labels == piece].reshape(-1, 3))
@@ -169,17 +171,13 @@ class Scene:
 
     def points_to_asset(self, points: FloatArray) -> FloatArray:
         """(N, 3) aligned points in the asset frame [m]."""
-        return points * self.size @ self.aligned_from_asset + self.origin
+        return points * self.size @ self.surface.from_asset + self.surface.origin
 
     def vector_to_asset(self, vector: FloatArray) -> FloatArray:
         """(3,) aligned direction in the asset frame."""
-        return vector @ self.aligned_from_asset
+        return vector @ self.surface.from_asset
 
 
 def make_scene(mesh: Mesh, labels: IntArray) -> Scene:
     """Put a mesh and its (F,) labels 0..N-1 into the aligned frame."""
-    turn = rotation(np.array([0.0, 0.0, -yaw(mesh)]))
-    origin = mesh.bounds.mean(axis=0)
-    vertices = (mesh.vertices - origin) @ turn.T / mesh.diagonal
-    count = int(labels.max()) + 1
-    return Scene(vertices, mesh.faces, np.asarray(labels), count, turn, mesh.diagonal, origin)
+    return Scene(aligned(mesh), np.asarray(labels), int(labels.max()) + 1)
