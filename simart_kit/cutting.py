@@ -18,7 +18,7 @@ from .topology import neighbours
 from .triangles import unit_normals
 
 WORK = 240_000
-"""Faces that may be cut in all, as often as they are: what bounds the time, the same on every machine."""
+"""Faces that may be cut for half of the parts, as often as they are: what bounds the time, alike anywhere."""
 
 _MOST_PLANES = 16
 _MANY_FACES = 500  # from which on only half as many planes are tried

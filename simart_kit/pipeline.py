@@ -9,12 +9,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from . import render
 from .assemble import Articulation, articulation, assemble, checked
 from .asset import Asset, clean_name
 from .asset_io import save_asset
+from .beside import Beside, modify_by
 from .checks import run_checks
 from .checks.subject import Subject
-from .drawing.painter import Painter
 from .errors import SimartKitError, StageError
 from .exports import export_all
 from .loading import Source, read_source, source_path
@@ -33,6 +34,8 @@ from .spec.shaping import with_parts
 from .spec.values import Spec
 from .spec.verdicts import with_verdicts
 from .stages import JointPredictor, Modifier, Prediction, Segmentation, Segmenter
+
+_MANY = 5_000  # faces from which on a process beside this one saves more than its start takes
 
 
 @dataclass(frozen=True)
@@ -103,12 +106,12 @@ def convert(
         with _failures_kept(runner, folder):
             runner.tell("run_started")
             loaded = _load(runner, plugins, path, up, unit)
-            with Painter(len(loaded.mesh.faces), alone=record) as painter:
+            with Beside(len(loaded.mesh.faces) >= _MANY) as beside:
                 segmentation = _segment(runner, plugins, resolved, loaded, wishes)
                 asset = _articulate(runner, plugins, resolved, loaded, segmentation, name, floating, wishes)
-                asset = _modify(runner, plugins, resolved, asset, loaded.stated is not None)
+                asset = _modify(runner, plugins, resolved, asset, loaded.stated is not None, beside)
                 asset = asset if wishes is None else with_verdicts(asset, wishes)
-                report, mains = _write(runner, plugins, resolved, asset, painter)
+                report, mains = _write(runner, plugins, resolved, asset, beside)
         arguments: dict[str, Any] = {"name": name, "up": up, "unit": unit, "floating": floating}
         arguments["spec"] = None if wishes is None else wishes.table()
         return _finish(runner, plugins, loaded, report, mains, folder, arguments)
@@ -158,37 +161,39 @@ def _articulate(
     return runner.stage("joints", registration, predicted, segmentation).asset
 
 
-def _modify(runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset, stated: bool) -> Asset:
+def _modify(
+    runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset, stated: bool, beside: Beside
+) -> Asset:
     kept = []
     for use in recipe.modify:
         stage, registration = build(use, Modifier, plugins, recipe.seed)
         if stated and stage.corrects_joints:
             kept.append(use.use)
         else:
-            asset = runner.stage("modify", registration, _modified, asset, stage)
+            asset = runner.stage("modify", registration, _modified, asset, stage, beside)
     text = f"the file states its joints, so they are left as they are by {', '.join(kept)}"
     return asset.with_notes("load", "info", [text] if kept else [])
 
 
-def _modified(asset: Asset, modifier: Modifier) -> Asset:
-    result = modifier.modify(asset)
+def _modified(asset: Asset, modifier: Modifier, beside: Beside) -> Asset:
+    result = modify_by(modifier, asset, beside)
     if not isinstance(result, Asset):
         raise TypeError(f"modify() returned {type(result).__name__}, expected an Asset")
     return result
 
 
 def _write(
-    runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset, painter: Painter
+    runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset, beside: Beside
 ) -> tuple[Report, dict[str, Path]]:
     work = runner.run.folder
     save_asset(asset, work)
-    begun = painter.begin(work)
-    if not begun:
-        runner.call("preview", "preview", painter.finish, asset, work)
+    if beside.helps:
+        runner.begin("preview", "preview", beside.ask(render.draw_saved, work.resolve()).result)
+    else:
+        runner.call("preview", "preview", render.write_preview, asset, work / "preview.png")
     mains, unsupported = export_all(runner, plugins, recipe, asset)
     checks = runner.call("check", "checks", run_checks, build_checks(recipe, plugins), Subject(mains, asset))
-    if begun:
-        runner.call("preview", "preview", painter.finish, asset, work)
+    runner.settle()
     report = Report(runner.run.name, asset, checks, asset.notes + runner.notes, unsupported, runner.seconds)
     runner.tell("run_finished", report=report)
     write_json(work / "report.json", report.table())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
@@ -61,6 +62,7 @@ class Runner:
         self.usage: tuple[tuple[str, str, ModelUsage], ...] = ()
         self.notes: tuple[Note, ...] = ()
         self._plugins = plugins
+        self._begun: Callable[[], object] | None = None
 
     def call(self, stage: str, name: str, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
         """Run a step of the core's own; its errors pass through."""
@@ -68,6 +70,22 @@ class Runner:
         value = function(*args, **kwargs)
         self._finished(stage, name, value, time.perf_counter() - start)
         return value
+
+    def begin(self, stage: str, name: str, result: Callable[[], object]) -> None:
+        """Let a step of the core's own go on beside the next ones, until `settle` or until one of them fails.
+
+        Args:
+            stage: which.
+            name: of the step.
+            result: waits for it; its errors pass through.
+        """
+        self._begun = partial(self.call, stage, name, result)
+
+    def settle(self) -> None:
+        """Wait for what was begun, so that observers see it finished."""
+        begun, self._begun = self._begun, None
+        if begun is not None:
+            begun()
 
     def stage(
         self,
@@ -87,6 +105,7 @@ class Runner:
                 value = function(*args, **kwargs)
         except (Exception, SystemExit) as cause:
             error = registration.failure(cause)
+            self._settle_for(error)
             self.tell("run_failed", stage=stage, error=error)
             self._save(args[0], error)
             raise error from cause
@@ -106,6 +125,13 @@ class Runner:
             save_value(value, self.run.folder / "failed" / "input")
         except Exception as unsaved:
             error.add_note(f"its input could not be saved: {unsaved}")
+
+    def _settle_for(self, error: StageError) -> None:
+        """See to the end of what was begun, as observers are told of a failure; it must not hide that."""
+        try:
+            self.settle()
+        except Exception as another:
+            error.add_note(f"what went on beside it failed too: {another}")
 
     def _finished(self, stage: str, name: str, value: object, seconds: float) -> None:
         self.seconds += ((stage, name, seconds),)

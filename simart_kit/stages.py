@@ -172,7 +172,7 @@ class JointPredictor(Stage):
 
 
 class Modifier(Stage):
-    """A small step from Asset to Asset.
+    """A small step from Asset to Asset; one that takes long may take help, see `beside.HelpedModifier`.
 
     Attributes:
         corrects_joints: whether it corrects how joints move, which predictors only guess; it is left out

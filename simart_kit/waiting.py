@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from .arrays import BoolArray, FloatArray
+from .arrays import BoolArray, FloatArray, IntArray
 from .asset import Asset, Joint, Limits
+from .beside import ALONE, Beside
 from .bounds import bounds_of, sharing
 from .kinematics import LEAST_TRAVEL, carried, reach_box, rest_to_posed
 from .sweeping import Sweep, free_range, move
@@ -41,7 +42,7 @@ class FreeRange:
         return self.upper - self.lower
 
 
-def free_ranges(asset: Asset, steps: int, seed: int) -> dict[str, FreeRange]:
+def free_ranges(asset: Asset, steps: int, seed: int, beside: Beside = ALONE) -> dict[str, FreeRange]:
     """The free range of each limited joint, by name, within its limits.
 
     What is in the way of a joint that hardly moves is no obstacle if its own joint can take it out of there.
@@ -52,10 +53,14 @@ def free_ranges(asset: Asset, steps: int, seed: int) -> dict[str, FreeRange]:
         asset: at rest.
         steps: stops on the way to each limit.
         seed: of the sampling.
+        beside: who looks at every second joint.
     """
     limited = [joint for joint in asset.joints if joint.limits is not None]
-    none = np.zeros(len(asset.face_part), dtype=bool)
-    found = {joint.name: _swept(asset, joint, {}, none, steps, seed) for joint in limited}
+    ways = [(joint, faces_of(asset, joint.child)) for joint in limited]
+    vertices, faces = asset.mesh.vertices, asset.mesh.faces
+    others = beside.ask(_each_free, vertices, faces, ways[1::2], steps, seed)
+    free = _each_free(vertices, faces, ways[::2], steps, seed) | others.result()
+    found = {joint.name: free[joint.name] for joint in limited}
     held = [joint for joint in limited if found[joint.name].travel < _ENOUGH * wanted(joint)]
     for _ in held:
         better = {joint.name: _waited(asset, joint, found, steps, seed) for joint in held}
@@ -176,6 +181,26 @@ def _swept(
             faces[part] += len(vertices) * len(places)
             places.append(move(posed[name], vertices))
         vertices = np.concatenate(places)
+    return _free(vertices, faces, joint, moving, without, steps, seed)
+
+
+def _each_free(
+    vertices: FloatArray, faces: IntArray, ways: Sequence[tuple[Joint, BoolArray]], steps: int, seed: int
+) -> dict[str, FreeRange]:
+    """The free range of each joint, by name, that moves some of the (F,) faces against all others."""
+    none = np.zeros(len(faces), dtype=np.bool_)
+    return {joint.name: _free(vertices, faces, joint, moving, none, steps, seed) for joint, moving in ways}
+
+
+def _free(
+    vertices: FloatArray,
+    faces: IntArray,
+    joint: Joint,
+    moving: BoolArray,
+    without: BoolArray,
+    steps: int,
+    seed: int,
+) -> FreeRange:
     sweep = Sweep(vertices, faces[moving], faces[~(moving | without)], seed, holes=True)
     return FreeRange(*free_range(joint, sweep, steps))
 

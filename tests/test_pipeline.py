@@ -1,11 +1,14 @@
 """A run from end to end with fake stages: what it leaves, and what it leaves alone when a stage fails."""
 
+import functools
 import json
+import sys
 from pathlib import Path
 
 import pytest
 
 import simart_kit as sk
+from simart_kit.beside import Beside
 from simart_kit.errors import BadInputError, OutputError, StageError
 from simart_kit.pipeline import convert
 
@@ -251,6 +254,54 @@ def test_observers_hear_of_a_failure_with_the_stage(shop):
         shop.run("joints.options.fault=raise", observers=(Listener(),))
 
     assert heard == [("joints", StageError)]
+
+
+@pytest.fixture
+def beside(monkeypatch):
+    """A second core takes the picture of a small mesh too; it has just ended, so that it is drawn here."""
+    monkeypatch.setattr("simart_kit.beside.usable_cores", lambda: 2)
+    monkeypatch.setattr("simart_kit.pipeline._MANY", 0)
+    ended = functools.partial(Beside, worker=(sys.executable, "-c", ""))
+    monkeypatch.setattr("simart_kit.pipeline.Beside", ended)
+
+
+class Heard:
+    """What an observer is told."""
+
+    def __init__(self):
+        self.told = []
+
+    @sk.hookimpl
+    def stage_finished(self, stage, name):
+        self.told.append(f"{stage} {name}")
+
+    @sk.hookimpl
+    def run_failed(self, stage, error):
+        self.told.append(f"{stage} failed")
+        self.notes = error.__notes__
+
+
+def test_a_second_core_draws_while_formats_are_written_and_checked(shop, beside):
+    heard = Heard()
+    result = shop.run(observers=(heard,))
+    assert heard.told[-3:] == ["export fake_text", "check checks", "preview preview"]
+    assert result.paths["preview"].read_bytes() == b"picture"
+
+
+def test_a_format_that_fails_waits_for_the_picture_before_observers_are_told(shop, beside):
+    heard = Heard()
+    with pytest.raises(StageError, match="disk on fire"):
+        shop.run("export.fake_text.options.fault=half", observers=(heard,))
+    assert heard.told[-2:] == ["preview preview", "export failed"]
+
+
+def test_a_picture_that_fails_too_does_not_hide_why_a_format_failed(shop, beside, monkeypatch):
+    monkeypatch.setattr("simart_kit.render.write_preview", lambda asset, path: 1 / 0)
+    heard = Heard()
+    with pytest.raises(StageError, match="disk on fire"):
+        shop.run("export.fake_text.options.fault=half", observers=(heard,))
+    assert heard.told[-1] == "export failed"
+    assert heard.notes[0] == "what went on beside it failed too: division by zero"
 
 
 def test_the_recording_of_a_failed_run_is_kept(shop):

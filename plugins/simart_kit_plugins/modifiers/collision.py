@@ -3,34 +3,32 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Literal
 
-import numpy as np
 from pydantic import Field
 
 import simart_kit as sk
 from simart_kit.asset import ConvexMesh
+from simart_kit.beside import ALONE, Beside
 from simart_kit.carving import carved_apart
 from simart_kit.closing import MOST_PIECES
 from simart_kit.coarsening import coarsened
 from simart_kit.convex_decomposition import lacks
 from simart_kit.cutting import WORK
-from simart_kit.decompose import Budget, Decomposition, Surface, decompose_by_tool, decompose_surface
+from simart_kit.decompose import Budget, Decomposition, Surface
 from simart_kit.easing import eased
 from simart_kit.findings import Finding, library
-from simart_kit.fitting import aligned_box
 from simart_kit.hinge_relief import relieved
 from simart_kit.hookspecs import Register
-from simart_kit.hulls import MIN_THICKNESS, convex_hull
 from simart_kit.separation import Overlap, overlaps, separated
 from simart_kit.wheels import wheels
 
-Shapes = dict[str, Decomposition]  # by name of the part
+from .shaping import Mode, Shaper, Shapes
+
 _MOST_FACES = 60_000  # of a part that shapes are fitted to; finer ones are coarsened first
 _LEAST_PIECES = 32  # that even a part with few of the faces may come apart into
-_KEPT = 8  # so many times less than an equal share of the work is kept for each part that comes later
 _REBATES = 1.01  # how tight shapes have to be where parts overlap
 
 
@@ -42,7 +40,7 @@ class Collision(sk.Modifier):
     class Options(sk.Options):
         """How tight and how large the shapes may be."""
 
-        mode: Literal["auto", "decompose", "hull", "box", "none"] = Field(
+        mode: Mode = Field(
             "auto",
             description="auto: primitives where they fit, cylinders for wheels, hulls of what is convex, and "
             "cuts along the part's own planes, so that what is hollow stays hollow; decompose: the whole "
@@ -74,6 +72,10 @@ class Collision(sk.Modifier):
         Raises:
             BadInputError: the tool is needed and not installed.
         """
+        return self.modify_beside(asset, ALONE)
+
+    def modify_beside(self, asset: sk.Asset, beside: Beside) -> sk.Asset:
+        """As `modify`; about half of the shapes are left to another process, if there is one."""
         options = self.options
         lacking = options.mode in ("auto", "decompose") and lacks(options.tool)
         if lacking:
@@ -85,11 +87,12 @@ class Collision(sk.Modifier):
             for index, part in enumerate(asset.parts)
             if part.name not in rolling
         }
-        made = rolling | self._made(surfaces, Budget().tight, WORK, options.tool_timeout)
+        shaper = Shaper(surfaces, options.mode, beside)
+        made = rolling | shaper.made(surfaces, self._budget(Budget().tight, options.tool_timeout), {})
         done = self._placed(asset, made)
         found: Sequence[Overlap] = overlaps(done)
         if found and options.mode == "auto":
-            made, done, found = self._refined(asset, surfaces, made, done, found)
+            made, done, found = self._refined(asset, shaper, made, done, found)
         if found and options.margin and options.mode in ("auto", "decompose"):
             done = carved_apart(done)
             found = overlaps(done)
@@ -104,7 +107,7 @@ class Collision(sk.Modifier):
     def _refined(
         self,
         asset: sk.Asset,
-        surfaces: Mapping[str, Surface],
+        shaper: Shaper,
         made: Shapes,
         done: sk.Asset,
         found: Sequence[Overlap],
@@ -116,11 +119,10 @@ class Collision(sk.Modifier):
         """
         names = {name for overlap in found for name in (overlap.one, overlap.other)}
         done_with = {name for name, m in made.items() if m.crowded or m.tool_seconds}
-        coarse = {n: surface for n, surface in surfaces.items() if n in names - done_with}
-        work = WORK - sum(m.work for m in made.values())
-        if not coarse or work <= 0:
+        tighter = shaper.made(names - done_with, self._budget(_REBATES, 0.0), made)
+        if not tighter:
             return made, done, found
-        finer = made | self._made(coarse, _REBATES, work, seconds=0.0)
+        finer = made | tighter
         tried = self._placed(asset, finer)
         remaining = overlaps(tried)
         if sum(o.depth for o in remaining) < sum(o.depth for o in found):
@@ -133,33 +135,9 @@ class Collision(sk.Modifier):
         margin = self.options.margin
         return separated(asset.with_parts(changed), margin) if margin else asset.with_parts(changed)
 
-    def _made(self, surfaces: Mapping[str, Surface], tight: float, work: int, seconds: float) -> Shapes:
-        """Shapes of some parts, the largest last. Each may take nearly all that is left of work and time."""
-        options, made = self.options, {}
-        order = sorted(surfaces, key=lambda name: len(surfaces[name].faces))
-        kept = work // (_KEPT * len(order))
-        for done, name in enumerate(order):
-            share = max(work - kept * (len(order) - done - 1), kept)
-            budget = Budget(options.max_shapes, options.max_vertices, tight, share, options.tool, seconds)
-            shapes = made[name] = self._shapes(surfaces[name], budget)
-            work, seconds = max(work - shapes.work, 0), max(seconds - shapes.tool_seconds, 0.0)
-        return {name: made[name] for name in surfaces}
-
-    def _shapes(self, surface: Surface, budget: Budget) -> Decomposition:
+    def _budget(self, tight: float, seconds: float) -> Budget:
         options = self.options
-        points = surface.vertices[np.unique(surface.faces)]
-        match options.mode:
-            case "none":
-                return Decomposition(())
-            case "box":
-                grow = np.maximum(MIN_THICKNESS - np.ptp(points, axis=0), 0) / 2
-                return Decomposition((aligned_box(points.min(axis=0) - grow, points.max(axis=0) + grow),))
-            case "hull":
-                return Decomposition((convex_hull(points, options.max_vertices),))
-            case "decompose":
-                return decompose_by_tool(surface.vertices, surface.faces, budget)
-            case "auto":
-                return decompose_surface(surface, budget)
+        return Budget(options.max_shapes, options.max_vertices, tight, WORK, options.tool, seconds)
 
 
 def _surface(asset: sk.Asset, index: int) -> Surface:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from simart_kit import Asset, Joint
+    from simart_kit.beside import Beside
     from simart_kit.hookspecs import Register
     from simart_kit.waiting import FreeRange
 
@@ -54,22 +55,28 @@ class Sweep(Modifier):
 
     def modify(self, asset: Asset) -> Asset:
         """The asset with limits that surfaces allow; notes tell each change, warnings each stuck joint."""
+        from simart_kit.beside import ALONE
+
+        return self.modify_beside(asset, ALONE)
+
+    def modify_beside(self, asset: Asset, beside: Beside) -> Asset:
+        """As `modify`; half of the joints are left to another process, if there is one."""
         from simart_kit.reversing import opening_otherwise
 
-        ranges, pressed = self._ways(asset)
+        ranges, pressed = self._ways(asset, beside)
         stuck = [name for name, joint in pressed.items() if joint is None]
         turned = opening_otherwise(asset, stuck, self.options.least, self.options.steps, self.seed)
         if turned:
             told = [f"{name}: blocked at once, opens the other way" for name in turned]
             asset = asset.with_joints(turned).with_notes("sweep", "info", told)
-            ranges, pressed = self._ways(asset)
+            ranges, pressed = self._ways(asset, beside)
         return self._settled(asset, ranges, pressed)
 
-    def _ways(self, asset: Asset) -> tuple[dict[str, FreeRange], dict[str, Joint | None]]:
+    def _ways(self, asset: Asset, beside: Beside) -> tuple[dict[str, FreeRange], dict[str, Joint | None]]:
         """How far each joint is free, and how each that stops at once sinks in all the same, or None."""
         from simart_kit.waiting import free_ranges, stops, sunk
 
-        ranges = free_ranges(asset, self.options.steps, self.seed)
+        ranges = free_ranges(asset, self.options.steps, self.seed, beside)
         stopped = [n for n, free in ranges.items() if stops(asset.joint(n), free, self.options.least)]
         return ranges, {n: sunk(asset, asset.joint(n), self.options.steps, self.seed) for n in stopped}
 
