@@ -13,7 +13,8 @@ COG := COLUMNS=80 $(BIN)/cog
 SCHEMA := $(BIN)/python -c 'from simart_kit import asset_schema, describe; \
 	print(describe.schema_text(asset_schema.AssetTable), end="")'
 WHEEL := build/wheel
-# Modules are compiled once, not by every process that a test starts.
+# Modules are compiled once, also where the environment keeps Python from writing what it compiles.
+COMPILE := $(BIN)/python -m compileall -q simart_kit plugins exporters
 PYTEST := PYTHONDONTWRITEBYTECODE= $(BIN)/pytest
 # A process for each processor; one that runs out of tests takes those of another.
 PARALLEL := -n auto --dist worksteal
@@ -105,9 +106,11 @@ $(BIN)/python:
 $(APP): pyproject.toml constraints.txt | $(BIN)/python
 	@echo "installing into $(VENV): a minute or two, about 1.4 GB"
 	$(PIP) --editable .
+	@$(COMPILE)
 	@touch $@
 
 $(DEV): pyproject.toml constraints.txt | $(BIN)/python
 	@echo "installing the test and lint tools too into $(VENV)"
 	$(PIP) --editable '.[dev]'
+	@$(COMPILE)
 	@touch $@

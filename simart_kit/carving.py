@@ -8,6 +8,7 @@ import numpy as np
 
 from .arrays import FloatArray
 from .asset import Asset, ConvexMesh
+from .beside import ALONE, Beside
 from .convex_overlap import convex, gap, meets
 from .fitting import box_around, fitted
 from .hulls import hull_of, volume
@@ -26,7 +27,7 @@ _MORE = 48  # shapes that a part may have more for this
 _SHORTER = 0.05  # of the object's diagonal that a part's box may lose on a side
 
 
-def carved_apart(asset: Asset, work: int = WORK) -> Asset:
+def carved_apart(asset: Asset, work: int = WORK, beside: Beside = ALONE) -> Asset:
     """The asset without overlaps at rest: of two parts the one gives way that loses the smaller share.
 
     It is cut along the planes of the other's shapes; one that would get very many of them stays as it is, and
@@ -35,6 +36,7 @@ def carved_apart(asset: Asset, work: int = WORK) -> Asset:
     Args:
         asset: with collision shapes.
         work: see `WORK`; pairs that come after it is done stay as they are.
+        beside: who tries how it is if the other of two gives way.
     """
     shapes = {part.name: list(part.collision) for part in asset.parts}
     most = {name: len(row) + _MORE for name, row in shapes.items()}
@@ -42,8 +44,9 @@ def carved_apart(asset: Asset, work: int = WORK) -> Asset:
     for overlap in overlaps(asset):
         if work <= 0:
             break
-        pairs = (overlap.one, overlap.other), (overlap.other, overlap.one)
-        tried = {giver: _without(shapes[giver], shapes[taker], most[giver]) for giver, taker in pairs}
+        one, other = overlap.one, overlap.other
+        later = beside.ask(_without, shapes[other], shapes[one], most[other])
+        tried = {one: _without(shapes[one], shapes[other], most[one]), other: later.result()}
         work -= sum(spent for _, spent in tried.values())
         made = {giver: row for giver, (row, _) in tried.items()}
         kept = {

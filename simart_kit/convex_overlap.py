@@ -40,6 +40,12 @@ class Convex:
         return np.array([lower, upper])
 
     @cached_property
+    def middle(self) -> FloatArray:
+        """(3,) middle of that box [m]."""
+        lower, upper = self.bounds
+        return np.asarray((lower + upper) / 2)
+
+    @cached_property
     def normals(self) -> FloatArray:
         """(N, 3) unit normals of its faces, each up to its sign."""
         if self.turned:
@@ -114,7 +120,7 @@ def gap(one: Convex, other: Convex, deep: float = 0.0) -> tuple[float, FloatArra
         deep: where they overlap by less than this [m], how deep exactly is not looked at: the answer may be
             deeper than it is, but not as deep as this.
     """
-    middles = other.bounds.mean(axis=0) - one.bounds.mean(axis=0)
+    middles = other.middle - one.middle
     length = float(np.linalg.norm(middles))
     between = middles[None] / length if length > 0 else np.eye(3)
     found = _widest(one, other, np.concatenate([one.normals, other.normals, between]))

@@ -94,7 +94,7 @@ class Collision(sk.Modifier):
         if found and options.mode == "auto":
             made, done, found = self._refined(asset, shaper, made, done, found)
         if found and options.margin and options.mode in ("auto", "decompose"):
-            done = carved_apart(done)
+            done = carved_apart(done, beside=beside)
             found = overlaps(done)
         done = eased(done) if options.margin and options.mode in ("auto", "decompose") else done
         done, freed = relieved(done) if options.margin and options.mode != "box" else (done, ())
