@@ -257,8 +257,9 @@ def _failures_kept(runner: Runner, folder: Path) -> Iterator[None]:
         recording = runner.run.folder / f"{runner.run.name}.rrd"
         if recording.exists():
             recording.replace(kept / recording.name)
+        saved = "its input and the traceback are" if any(kept.glob("input*")) else "the traceback is"
         keep_failure(kept, folder)
-        error.add_note(f"its input and the traceback are in {folder / 'failed'}")
+        error.add_note(f"{saved} in {folder / 'failed'}")
         raise
     except SimartKitError as error:
         runner.tell("run_failed", stage="load", error=error)

@@ -65,9 +65,16 @@ class Runner:
         self._begun: Callable[[], object] | None = None
 
     def call(self, stage: str, name: str, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
-        """Run a step of the core's own; its errors pass through."""
+        """Run a step of the core's own; its errors pass through.
+
+        Observers are told of a check that failed in it.
+        """
         start = time.perf_counter()
-        value = function(*args, **kwargs)
+        try:
+            value = function(*args, **kwargs)
+        except StageError as error:
+            self._failed(stage, error)
+            raise
         self._finished(stage, name, value, time.perf_counter() - start)
         return value
 
@@ -105,8 +112,7 @@ class Runner:
                 value = function(*args, **kwargs)
         except (Exception, SystemExit) as cause:
             error = registration.failure(cause)
-            self._settle_for(error)
-            self.tell("run_failed", stage=stage, error=error)
+            self._failed(stage, error)
             self._save(args[0], error)
             raise error from cause
         self.used += (registration,)
@@ -126,12 +132,13 @@ class Runner:
         except Exception as unsaved:
             error.add_note(f"its input could not be saved: {unsaved}")
 
-    def _settle_for(self, error: StageError) -> None:
-        """See to the end of what was begun, as observers are told of a failure; it must not hide that."""
+    def _failed(self, stage: str, error: StageError) -> None:
+        """Tell observers, once what was begun has come to its end; that must not hide the failure."""
         try:
             self.settle()
         except Exception as another:
             error.add_note(f"what went on beside it failed too: {another}")
+        self.tell("run_failed", stage=stage, error=error)
 
     def _finished(self, stage: str, name: str, value: object, seconds: float) -> None:
         self.seconds += ((stage, name, seconds),)

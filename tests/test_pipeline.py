@@ -11,6 +11,7 @@ import simart_kit as sk
 from simart_kit.beside import Beside
 from simart_kit.errors import BadInputError, OutputError, StageError
 from simart_kit.pipeline import convert
+from simart_kit.testing import fakes
 
 from .workshop import Camera, Workshop, contents
 
@@ -278,7 +279,7 @@ class Heard:
     @sk.hookimpl
     def run_failed(self, stage, error):
         self.told.append(f"{stage} failed")
-        self.notes = error.__notes__
+        self.notes = getattr(error, "__notes__", [])
 
 
 def test_a_second_core_draws_while_formats_are_written_and_checked(shop, beside):
@@ -302,6 +303,16 @@ def test_a_picture_that_fails_too_does_not_hide_why_a_format_failed(shop, beside
         shop.run("export.fake_text.options.fault=half", observers=(heard,))
     assert heard.told[-1] == "export failed"
     assert heard.notes[0] == "what went on beside it failed too: division by zero"
+
+
+def test_a_check_that_raises_is_told_too_and_the_recording_kept(shop):
+    wrong = fakes.plugin(check=fakes.check(error=RuntimeError("no idea")))
+    heard = Heard()
+    with pytest.raises(StageError, match="no idea") as caught:
+        shop.run(observers=(wrong, heard, Camera()))
+    assert heard.told[-2:] == ["export fake_text", "check failed"]
+    assert set(contents(shop.out / "failed")) == {"error.txt", "cupboard.rrd"}
+    assert caught.value.__notes__ == [f"the traceback is in {shop.out / 'failed'}"]
 
 
 def test_the_recording_of_a_failed_run_is_kept(shop):
