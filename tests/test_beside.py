@@ -51,10 +51,10 @@ def test_arrays_come_back_as_they_are(helper: Beside) -> None:
 def test_what_is_asked_goes_on_while_this_process_does(helper: Beside) -> None:
     helper.ask(os.getpid).result()  # it has begun
     start = time.perf_counter()
-    later = helper.ask(time.sleep, 0.5)
-    assert time.perf_counter() - start < 0.3
+    later = helper.ask(time.sleep, 1.0)
+    assert time.perf_counter() - start < 0.8
     later.result()
-    assert time.perf_counter() - start >= 0.5
+    assert time.perf_counter() - start >= 1.0
 
 
 def test_what_a_function_prints_is_no_answer(helper: Beside) -> None:
