@@ -11,6 +11,7 @@ from pydantic import Field
 
 import simart_kit as sk
 from simart_kit.arrays import frozen_floats
+from simart_kit.beside import Beside
 from simart_kit.testing import fakes, meshes
 from simart_kit.testing.contracts import (
     ExporterContract,
@@ -184,6 +185,17 @@ def test_contract_finds_a_wrong_modifier(change: Callable[[sk.Asset], sk.Asset],
     with pytest.raises((AssertionError, sk.SimartKitError)):
         keeps(ModifierContract, fakes.modifier(change), test)
     keeps(ModifierContract, fakes.modifier(), test)
+
+
+class Unequal(fakes.modifier()):  # type: ignore[misc]
+    def modify_beside(self, asset: sk.Asset, beside: Beside) -> sk.Asset:
+        return loosened(asset)
+
+
+def test_contract_finds_a_modifier_that_makes_another_asset_with_help() -> None:
+    with pytest.raises(AssertionError, match="modify_beside"):
+        keeps(ModifierContract, Unequal, "test_help_changes_nothing")
+    keeps(ModifierContract, fakes.modifier(), "test_help_changes_nothing")
 
 
 class Litterer(fakes.exporter()):  # type: ignore[misc]

@@ -22,6 +22,7 @@ from pydantic import ValidationError
 from ..arrays import IntArray
 from ..assemble import assemble, checked
 from ..asset import Asset, Joint
+from ..beside import Beside, HelpedModifier, modify_by
 from ..checks import CheckResult
 from ..checks.subject import Subject
 from ..errors import BadInputError
@@ -224,6 +225,12 @@ class ModifierContract(StageContract):
         assert fingerprint(one) == fingerprint(two), (
             "make generators with numpy.random.default_rng(self.seed)"
         )
+
+    def test_help_changes_nothing(self) -> None:
+        stage = self.make()
+        with Beside(isinstance(stage, HelpedModifier)) as another:
+            helped = modify_by(stage, self.asset(), another)
+        assert fingerprint(helped) == fingerprint(stage.modify(self.asset())), "modify_beside() gives another"
 
     def test_leaves_the_asset_alone(self) -> None:
         asset = self.asset()
