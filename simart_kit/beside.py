@@ -82,12 +82,9 @@ class Later(Generic[T]):
 
     def result(self) -> T:
         """What it returns, or raises. What the other process could not do is done now."""
-        if self._there is not None:
-            try:
-                return self._there.result()
-            except _EndedError:
-                pass
-        return self._here()
+        if self._there is None or isinstance(self._there.exception(), _EndedError):
+            return self._here()
+        return self._there.result()
 
 
 class _EndedError(Exception):
