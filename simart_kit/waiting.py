@@ -111,7 +111,7 @@ def sunk(asset: Asset, joint: Joint, steps: int, seed: int) -> Joint | None:
     if wanted(joint) > most or size > (_MOST if named else _HELD) * mesh.diagonal:
         return None
     carrier = asset.face_part == asset.part_index(joint.parent)
-    free = _swept(asset, joint, {}, carrier, steps, seed).travel == wanted(joint)
+    free = swept(asset, joint, {}, carrier, steps, seed).travel == wanted(joint)
     return joint if free else None
 
 
@@ -134,7 +134,7 @@ def _waited(asset: Asset, joint: Joint, found: Mapping[str, FreeRange], steps: i
     alone = found[joint.name]
     others = {name: faces_of(asset, asset.joint(name).child) for name in _openable(asset, joint, found)}
     gone = np.any([np.zeros(len(asset.face_part), dtype=bool), *others.values()], axis=0)
-    most = _swept(asset, joint, {}, gone, steps, seed)
+    most = swept(asset, joint, {}, gone, steps, seed)
     least = _ENOUGH * wanted(joint)
     if not others or most.travel < least:
         return alone
@@ -144,13 +144,13 @@ def _waited(asset: Asset, joint: Joint, found: Mapping[str, FreeRange], steps: i
         name
         for name, faces in others.items()
         if len(sharing(reach, np.array([bounds_of(asset.mesh.points_of(faces))])))
-        and _swept(asset, joint, {}, ~(faces | mine), steps, seed).travel < most.travel
+        and swept(asset, joint, {}, ~(faces | mine), steps, seed).travel < most.travel
     ]
     opened: dict[str, float] = {}
     for name in blockers:
         free = found[name]
         opened |= {**free.opened, name: max(free.lower, free.upper, key=abs)}
-    waited = _swept(asset, joint, opened, np.zeros_like(gone), steps, seed)
+    waited = swept(asset, joint, opened, np.zeros_like(gone), steps, seed)
     return FreeRange(waited.lower, waited.upper, opened) if waited.travel >= least else alone
 
 
@@ -167,10 +167,19 @@ def _openable(asset: Asset, joint: Joint, found: Mapping[str, FreeRange]) -> lis
     ]
 
 
-def _swept(
+def swept(
     asset: Asset, joint: Joint, opened: Mapping[str, float], without: BoolArray, steps: int, seed: int
 ) -> FreeRange:
-    """The free range of a joint with others open and (F,) faces left out."""
+    """The free range of a joint with limits, whatever it waits for.
+
+    Args:
+        asset: at rest.
+        joint: as it shall be; its child is the asset's.
+        opened: positions of other joints that are open, by name.
+        without: (F,) faces that are left out.
+        steps: stops on the way to each limit.
+        seed: of the sampling.
+    """
     mesh, moving = asset.mesh, faces_of(asset, joint.child)
     vertices, faces = mesh.vertices, mesh.faces
     if opened:

@@ -158,6 +158,49 @@ class TestTheOtherWay:
         assert Sweep().modify(asset).joint("slide").kind == "fixed"
 
 
+class TestOnOnePin:
+    """A magazine under a cover, as of a stapler, both hinged on a line along x at the back; -x lifts them."""
+
+    BASE: Bounds = ((0.0, -1.0, 0.0), (0.3, 0.1, 0.1))
+    MAGAZINE: Bounds = ((0.0, -1.0, 0.1), (0.3, 0.1, 0.2))
+    COVER: Bounds = ((0.0, -1.0, 0.2), (0.3, 0.1, 0.3))
+    SHELF: Bounds = ((0.35, -1.0, 0.2), (0.6, 0.1, 0.3))  # of the base, beside the cover
+    PIN = (0.0, 0.1, 0.1)
+
+    def stapler(self, cover: tuple[float, float, float] = PIN, magazine: Bounds = MAGAZINE) -> sk.Asset:
+        """The cover turns about a line through this point, not so far that the magazine could wait for it."""
+        joints = [
+            sk.Joint(f"{name}_hinge", "revolute", "base", name, origin, (-1, 0, 0), sk.Limits(0.0, most))
+            for name, origin, most in (("magazine", self.PIN, 1.0), ("cover", cover, 0.4))
+        ]
+        mesh = boxes_mesh([self.BASE, self.SHELF, magazine, self.COVER])
+        face_part = np.repeat([0, 1, 2], [24, 12, 12])
+        parts = tuple(map(sk.Part, ("base", "magazine", "cover")))
+        return sk.Asset("stapler", mesh, face_part, parts, tuple(joints))
+
+    def test_what_holds_a_part_down_goes_along_with_it(self) -> None:
+        asset = self.stapler()
+        result = Sweep().modify(asset)
+        assert result.joint("magazine_hinge") == asset.joint("magazine_hinge")
+        assert result.joint("cover_hinge") == replace(asset.joint("cover_hinge"), parent="magazine")
+        assert [(n.level, n.text) for n in result.notes] == [
+            ("info", "cover: on one pin with magazine, goes along with it")
+        ]
+
+    def test_not_if_it_turns_about_another_line(self) -> None:
+        asset = self.stapler(cover=(0.0, 0.1, 0.3))
+        result = Sweep().modify(asset)
+        assert result.joint("cover_hinge") == asset.joint("cover_hinge")
+        assert result.joint("magazine_hinge").kind == "fixed"
+
+    def test_not_if_that_frees_nothing(self) -> None:
+        """A magazine that reaches below the shelf stays down without the cover."""
+        asset = self.stapler(magazine=((0.0, -1.0, 0.1), (0.6, 0.1, 0.2)))
+        result = Sweep().modify(asset)
+        assert result.joint("cover_hinge") == asset.joint("cover_hinge")
+        assert result.joint("magazine_hinge").kind == "fixed"
+
+
 def test_a_joint_that_was_given_no_way_is_held_fixed() -> None:
     result = Sweep().modify(assembled(slide(0, 0), [DOOR], [POST]))
     assert result.joint("slide").kind == "fixed"

@@ -12,7 +12,7 @@ import simart_kit
 from simart_kit import Modifier, hookimpl
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from simart_kit import Asset, Joint
     from simart_kit.beside import Beside
@@ -26,7 +26,8 @@ class Sweep(Modifier):
     """Shortens limits to what is free, so that no part goes through another; turns or holds what is stuck.
 
     A joint that comes no farther than a quarter of its way has the wrong axis, mostly: fixed and flagged it
-    harms nothing. So is one that was given no way at all. What is free the other way goes so.
+    harms nothing. So is one that was given no way at all. What is free the other way goes so. What turns
+    about the same line and alone holds a part down goes along with it, as a stapler's cover with its magazine.
     What stands in another part at rest, as a rod in its sleeve, may slide on in it, whether or not there is a
     hole.
     What its own joint takes out of the way is no obstacle: a rack keeps its range behind a door, and a note.
@@ -61,16 +62,26 @@ class Sweep(Modifier):
 
     def modify_beside(self, asset: Asset, beside: Beside) -> Asset:
         """As `modify`; half of the joints are left to another process, if there is one."""
-        from simart_kit.reversing import opening_otherwise
-
         ranges, pressed = self._ways(asset, beside)
         stuck = [name for name, joint in pressed.items() if joint is None]
-        turned = opening_otherwise(asset, stuck, self.options.least, self.options.steps, self.seed)
-        if turned:
-            told = [f"{name}: blocked at once, opens the other way" for name in turned]
-            asset = asset.with_joints(turned).with_notes("sweep", "info", told)
-            ranges, pressed = self._ways(asset, beside)
-        return self._settled(asset, ranges, pressed)
+        eased = self._eased(asset, stuck) if stuck else asset
+        if eased is not asset:
+            ranges, pressed = self._ways(eased, beside)
+        return self._settled(eased, ranges, pressed)
+
+    def _eased(self, asset: Asset, stuck: Sequence[str]) -> Asset:
+        """The asset with stuck joints that open the other way, or take along what holds them down."""
+        from simart_kit.reversing import opening_otherwise
+        from simart_kit.riding import riding
+
+        look = (self.options.least, self.options.steps, self.seed)
+        turned = opening_otherwise(asset, stuck, *look)
+        riders = riding(asset, [name for name in stuck if name not in turned], *look)
+        told = [f"{name}: blocked at once, opens the other way" for name in turned]
+        told += [
+            f"{joint.child}: on one pin with {joint.parent}, goes along with it" for joint in riders.values()
+        ]
+        return asset.with_joints(turned | riders).with_notes("sweep", "info", told) if told else asset
 
     def _ways(self, asset: Asset, beside: Beside) -> tuple[dict[str, FreeRange], dict[str, Joint | None]]:
         """How far each joint is free, and how each that stops at once sinks in all the same, or None."""
