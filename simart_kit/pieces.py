@@ -76,6 +76,8 @@ def solid_body(vertices: FloatArray, faces: IntArray) -> Manifold | None:
     import manifold3d
 
     used, corners = without_gaps(faces)
+    if not _closes(corners, len(used)):  # Manifold does not refuse all of these: some end the process
+        return None
     for wound in (corners, corners[:, ::-1]):
         mesh = manifold3d.Mesh64(np.ascontiguousarray(vertices[used]), wound.astype(np.uint64))
         body = manifold3d.Manifold(mesh)
@@ -84,6 +86,12 @@ def solid_body(vertices: FloatArray, faces: IntArray) -> Manifold | None:
         if body.volume() > 0:
             return body
     return None
+
+
+def _closes(faces: IntArray, count: int) -> bool:
+    """Whether each edge of (F, 3) faces between `count` points is walked one way as often as the other."""
+    start, end = faces.ravel().astype(np.int64), faces[:, [1, 2, 0]].ravel().astype(np.int64)
+    return np.array_equal(np.sort(start * count + end), np.sort(end * count + start))
 
 
 def simpler(body: Manifold) -> Manifold:
