@@ -26,8 +26,8 @@ class Sweep(Modifier):
     """Shortens limits to what is free, so that no part goes through another; turns or holds what is stuck.
 
     A joint that comes no farther than a quarter of its way has the wrong axis, mostly: fixed and flagged it
-    harms nothing. So is one that was given no way at all. What is free the other way goes so. What turns
-    about the same line and alone holds a part down goes along with it, as a stapler's cover with its magazine.
+    harms nothing. So is one that was given no way at all. What is free the other way goes so. What alone
+    holds a part down and turns about the same line goes along with it, as a stapler's cover its magazine.
     What stands in another part at rest, as a rod in its sleeve, may slide on in it, whether or not there is a
     hole.
     What its own joint takes out of the way is no obstacle: a rack keeps its range behind a door, and a note.
