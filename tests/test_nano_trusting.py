@@ -45,11 +45,12 @@ def test_all_is_asked_where_each_side_says_something_else():
 
 
 def test_half_is_enough_where_geometry_finds_nothing():
-    new = said(part(DRAWER, 0.41), part(LID, 0.39), discord=0.05)
+    new = said(part(DRAWER, 0.41), part(LID, 0.39), discord=0.05, novelty=1.3)
     assert kept(new) == []
     assert kept(new, alone=True) == [DRAWER]
     assert kept(new, alone=True, skin=True) == []
     assert kept(replace(new, discord=float("inf")), alone=True) == []  # seen from one side
+    assert kept(replace(new, novelty=1.4), alone=True) == []  # like nothing that it knows
 
 
 def test_all_is_asked_on_a_skin():

@@ -16,6 +16,9 @@ from .proposals import Proposal, only
 _KNOWN, _HALF = 1 / 4, 1 / 2
 # Familiar is what is read much alike from all sides, or is no newer than so if these are not quite at odds.
 _MUCH_ALIKE, _NO_NEWER, _AT_ODDS = 0.002, 1.15, 0.02
+# What is newer is too strange for half of the sureness, though nothing else is found: most plants, plugs and
+# seats of catalogues that would move so do not.
+_STRANGE = 1.35
 # Where geometry finds as many parts, its borders are better unless the sides differ by no more.
 _HARDLY = 0.003
 # What is less likely than this to move is sure to stand still, in what is read much alike from all sides.
@@ -35,7 +38,7 @@ def enough(said: Prediction, least: float, skin: bool, alone: bool) -> float:
         return _KNOWN * least
     familiar = said.discord <= (_AT_ODDS if said.novelty <= _NO_NEWER else _MUCH_ALIKE)
     # What is seen from one side alone, as of many pieces, is sure of nothing: no other side could object.
-    alone = alone and said.discord < float("inf")
+    alone = alone and said.discord < float("inf") and said.novelty <= _STRANGE
     return _HALF * least if (familiar or alone) and not skin else least
 
 
