@@ -79,6 +79,13 @@ def carved(shape: ConvexMesh, other: ConvexMesh, clearance: float = CLEARANCE) -
     return tuple(_fitted(piece) for piece in around if volume(piece) > least)
 
 
+def trimmed(shape: ConvexMesh, other: ConvexMesh, clearance: float = CLEARANCE) -> tuple[ConvexMesh, ...]:
+    """What is left of a shape by the one cut that parts it from another and leaves most; may be nothing."""
+    normals, ends = _planes(other)
+    left = _single(shape, normals, ends + clearance)
+    return () if left is None else (_fitted(left),)
+
+
 def _single(shape: ConvexMesh, normals: FloatArray, ends: FloatArray) -> ConvexMesh | None:
     """What one cut leaves of a shape: the one that leaves most."""
     left = [_half(shape, -normal, -end) for normal, end in zip(normals, ends, strict=True)]
@@ -116,15 +123,13 @@ def _volume(shapes: Sequence[ConvexMesh]) -> float:
 def _without(
     shapes: Sequence[ConvexMesh], taker: Sequence[ConvexMesh], most: int
 ) -> tuple[list[ConvexMesh], int]:
-    """The shapes with another part's cut out, and how often one was; very many stay as they are."""
+    """The shapes with another part's cut out, and how often one was; no more than `most` are made smaller."""
     made, spent = list(shapes), 0
     for other in map(convex, taker):
-        if len(made) >= most:
-            break
         near = meets(other, np.array([convex(one).bounds for one in made]).reshape(-1, 2, 3)).tolist()
         met = [k for k in near if -gap(convex(made[k]), other, TOLERANCE)[0] > TOLERANCE]
         for k in reversed(met):
-            made[k : k + 1] = carved(made[k], other.shape)
+            made[k : k + 1] = (carved if len(made) < most else trimmed)(made[k], other.shape)
         spent += len(met)
     return made, spent
 

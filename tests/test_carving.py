@@ -112,6 +112,16 @@ class TestParts:
         hole = 0.1 * (0.1 + 2 * CLEARANCE) ** 2
         assert volume_of(done.part("blade")) == pytest.approx(0.3 * 0.3 * 0.1 - hole)
 
+    def test_parts_are_apart_even_where_very_many_pieces_would_be_left(self):
+        places = [(0.08 + 0.18 * i, 0.08 + 0.18 * j) for i in range(5) for j in range(5)]
+        keys = {f"key_{n}": [box([x, y, -2], [x + 0.1, y + 0.1, 2])] for n, (x, y) in enumerate(places)}
+        asset = asset_of(case=[CUBE], **keys)
+        done = carved_apart(asset, work=10_000)
+        assert overlaps(done) == ()
+        assert all(done.part(name).collision == tuple(row) for name, row in keys.items())
+        assert 30 < len(done.part("case").collision) < 60
+        assert volume_of(done.part("case")) > 0.4
+
     def test_parts_that_would_both_lose_all_stay_as_they_are(self):
         done = carved_apart(asset_of(body=[CUBE], door=[CUBE]))
         assert [p.collision for p in done.parts] == [(CUBE,), (CUBE,)]
