@@ -234,6 +234,15 @@ class TestPush:
         assert "pushed over its limit: hinge by" in soft.text
         assert soft.evidence["joints"]["hinge"]["overshoot"] > 0.01
 
+    def test_what_is_heavy_gets_the_time_that_it_takes(self, tmp_path: Path) -> None:
+        """5 N m turn 140 kg m^2 by 1.1 rad in 8 s, by 1.4 rad in 9 s; a damper lets through 0.025 rad/s."""
+        gate = judged("push", mjcf(tmp_path / "gate", DOOR, f'armature="140" {FIRM}'))
+        assert gate.passed
+        assert gate.evidence["joints"]["hinge"]["opened"] > 0.9
+        damped = judged("push", mjcf(tmp_path / "damped", DOOR, f'armature="1" damping="200" {FIRM}'))
+        assert not damped.passed
+        assert damped.evidence["joints"]["hinge"]["reached"] == pytest.approx(0.2, abs=0.005)
+
     def test_a_range_below_rest_is_pushed_the_other_way(self, tmp_path: Path) -> None:
         below = DOOR.replace('range="0 1.5"', 'range="-1.5 0.1"').replace('axis="0 0 -1"', 'axis="0 0 1"')
         row = judged("push", mjcf(tmp_path, below, 'damping="0.5"')).evidence["joints"]["hinge"]
@@ -257,6 +266,18 @@ class TestEnergyAndTimestep:
             subject = mjcf(tmp_path / str(number), DRAWER, joints)
             assert judged("energy", subject).passed
             assert judged("timestep", subject).passed
+
+    def test_parts_that_half_open_stand_in_each_other_do_not_burst_apart(self, tmp_path: Path) -> None:
+        """Either may go all the way alone; half open they share 0.2 m."""
+        two = "".join(
+            f'''<body name="part_{side}" pos="{side * 0.6} 0 0">
+            <joint name="slide_{side}" type="slide" axis="{-side} 0 0" range="0 1"/>
+            <geom type="box" size="0.2 0.2 0.2"/></body>'''
+            for side in (-1, 1)
+        )
+        step = judged("timestep", mjcf(tmp_path, two, 'damping="1"'))
+        assert step.passed
+        assert step.evidence["difference"] < 1e-4
 
     def test_energy_is_kept_by_a_pendulum(self, tmp_path: Path) -> None:
         """Friction and damping of the file are taken out, so that only the integration can lose any."""
