@@ -31,6 +31,7 @@ Pair = tuple[int, int]
 """Indices of two parts, ascending."""
 
 _STOPS = 9  # positions tried between the limits of each joint, both included, besides some near rest
+_CLOSER = 33  # where two hardly clear each other at one of these
 _NEAR_REST = (0.02, 0.05, 0.09)  # of the way to each limit
 _SOON = (*_NEAR_REST, 0.125, 0.25)  # a joint that stops there hardly moves
 # A corner that turns out of its frame grazes that on a hundredth of its way.
@@ -45,7 +46,7 @@ class Overlap:
     Attributes:
         one: name of the part that comes first.
         other: name of the other part.
-        depth: the shortest way that parts the two shapes that overlap most [m].
+        depth: the shortest way that parts the two shapes that overlap most [m]; 0 where they only touch.
     """
 
     one: str
@@ -87,9 +88,10 @@ def _overlaps_at_rest(asset: Asset) -> tuple[Overlap, ...]:
 
 @kept
 def overlaps_on_the_way(asset: Asset) -> tuple[Overlap, ...]:
-    """Pairs of a part and one that it moves on, whose shapes overlap somewhere on the joint's own way.
+    """Pairs of a part and one that it moves on, whose shapes meet somewhere on the joint's own way.
 
-    Shapes are coarser than surfaces, and such a pair would stop a door short of its limit. What is fixed to
+    Shapes are coarser than surfaces, and such a pair would stop a door short of its limit. So does one whose
+    shapes only touch there: solvers take a flat face that slides along another for a brake. What is fixed to
     either part of a joint counts as that part.
 
     Args:
@@ -100,9 +102,13 @@ def overlaps_on_the_way(asset: Asset) -> tuple[Overlap, ...]:
         carrier, mine = (
             np.flatnonzero(bodies == bodies[asset.part_index(name)]) for name in (joint.parent, joint.child)
         )
-        stops = _stops(span(joint), _LEAVING if joint.limits else _NEAR_REST)
-        met = _met(shapes, joint, mine.tolist(), carrier.tolist(), stops)
-        found |= {pair: max(depth, found.get(pair, 0.0)) for pair, depth in met.items()}
+        meet = partial(_met, shapes, joint, mine.tolist(), carrier.tolist())
+        met = meet(_stops(span(joint), _LEAVING if joint.limits else _NEAR_REST), -CLEARANCE / 2)
+        passed = any(depth < -TOLERANCE for depth in met.values())  # closely: they may touch in between
+        closer = meet(np.linspace(*span(joint), _CLOSER).tolist(), -TOLERANCE) if passed else {}
+        for pair, depth in (*met.items(), *closer.items()):
+            if depth >= -TOLERANCE:
+                found[pair] = max(depth, found.get(pair, 0.0))
     return _named(asset, found)
 
 
@@ -181,14 +187,16 @@ def _met(
     moving: Collection[int],
     still: Collection[int],
     stops: Sequence[float],
+    least: float = TOLERANCE,
 ) -> dict[Pair, float]:
-    """How deep parts that a joint moves stand in others at some of these positions [m], where they do."""
+    """How deep parts that a joint moves stand in others at some of these positions, where by `least` [m]."""
     found: dict[Pair, float] = {}
     mine = [(part, one) for part in moving for one in shapes[part]]
     others = [(part, one) for part in still for one in shapes[part]]
     if not mine or not others:
         return found
-    boxes = np.array([one.bounds for _, one in others])
+    touching = max(-least, 0.0) * np.array([[-1.0], [1.0]])
+    boxes = np.array([one.bounds + touching for _, one in others])
     near = sharing(reach_box(joint, np.concatenate([box_corners(one.bounds) for _, one in mine])), boxes)
     boxes = boxes[near]
     for posed_T_rest in (moved_by(joint, position) for position in stops if len(near)):
@@ -197,7 +205,7 @@ def _met(
             for other, shape in (others[near[k]] for k in meets(moved, boxes)):
                 pair = (min(part, other), max(part, other))
                 first, second = (moved, shape) if part < other else (shape, moved)
-                known = found.get(pair, TOLERANCE)
+                known = found.get(pair, least)
                 depth = -gap(first, second, known)[0]
                 if depth > known:
                     found[pair] = depth
@@ -285,7 +293,9 @@ def _deepest(shapes: Sequence[Sequence[Convex]], bodies: IntArray) -> dict[Pair,
 
 def _named(asset: Asset, depths: Mapping[Pair, float]) -> tuple[Overlap, ...]:
     names = [part.name for part in asset.parts]
-    return tuple(Overlap(names[one], names[other], depths[one, other]) for one, other in sorted(depths))
+    return tuple(
+        Overlap(names[one], names[other], max(0.0, depths[one, other])) for one, other in sorted(depths)
+    )
 
 
 def _near(

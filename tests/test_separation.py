@@ -208,6 +208,17 @@ class TestOverlaps:
         assert 0 < found.depth < 0.401124 - 0.4011
         assert overlaps_on_the_way(pair(block((0.4012, -0.0005, 0), (0.5, 0.03, 1)), door, hinge)) == ()
 
+    def test_a_face_that_turns_flush_below_another_is_met(self) -> None:
+        """A caster's plate slides along the foot of a post that it is clear of at rest."""
+        spin = sk.Joint("spin", "continuous", "one", "two", axis=(0, 0, 1))
+        post, plate = block((0.3, -0.05, 1), (0.4, 0.05, 2)), block((-0.5, -0.1, 0.9), (0.1, 0.1, 1))
+        asset = pair(post, plate, spin)
+        assert overlaps(asset) == ()
+        (found,) = overlaps_on_the_way(asset)
+        assert (found.one, found.other, found.depth) == ("one", "two", 0.0)
+        lower = block((-0.5, -0.1, 0.9), (0.1, 0.1, 0.9999))
+        assert overlaps_on_the_way(pair(post, lower, spin)) == ()
+
     def test_parts_that_cannot_move_against_each_other_are_one(self) -> None:
         for joint in (
             sk.Joint("fix", "fixed", "one", "two"),
