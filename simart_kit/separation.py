@@ -155,14 +155,17 @@ def _rigid(bodies: IntArray, pair: Pair) -> frozenset[int]:
 def _free(
     asset: Asset, joint: Joint, pair: Pair, moved: Collection[int], positions: Positions | None = None
 ) -> bool:
-    """Whether the surface of one of a pair, which the joint moves, passes that of the other all the way."""
+    """Whether the surface of one of a pair, which the joint moves, passes that of the other all the way.
+
+    As the modifier `sweep` looks at it: what stands in the other at rest may slide on in it.
+    """
     mine, other = sorted(pair, key=lambda part: part not in moved)
     triangles = [asset.mesh.triangles[asset.face_part == part].reshape(-1, 3) for part in (mine, other)]
     posed_T_rest = rest_to_posed(asset, positions or {})[asset.parts[other].name]
     triangles[1] = triangles[1] @ posed_T_rest[:3, :3].T + posed_T_rest[:3, 3]
     faces = [np.arange(len(corners)).reshape(-1, 3) for corners in triangles]
     limited = replace(joint, kind="revolute" if joint.turns else joint.kind, limits=Limits(*span(joint)))
-    sweep = Sweep(np.concatenate(triangles), faces[0], faces[1] + len(triangles[0]))
+    sweep = Sweep(np.concatenate(triangles), faces[0], faces[1] + len(triangles[0]), holes=True)
     return free_range(limited, sweep, _STOPS) == span(joint)
 
 

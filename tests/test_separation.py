@@ -255,6 +255,22 @@ class TestOverlaps:
         for lowest, met in ((-1.5, {("drawer", "shutter")}), (0.0, set())):
             assert {(o.one, o.other) for o in stopped_by_shapes(behind(lowest))} == met
 
+    def test_what_stands_in_another_at_rest_slides_on_in_it_though_shapes_were_cut_around_it(self) -> None:
+        """A rod goes down in a block that has no hole for it; so `sweep` lets it, too."""
+        boxes = [((0, 0, -3), (1, 1, -2)), ((0.4, 0.4, 0.5), (0.6, 0.6, 1.5)), ((0, 0, 0), (1, 1, 1))]
+        around = [((0, 0, 0), (1, 1, 0.4995)), ((0, 0, 0.5), (0.3995, 1, 1)), ((0.6005, 0, 0.5), (1, 1, 1))]
+        shapes = [[block(*boxes[0])], [block(*boxes[1])], [block(*box) for box in around]]
+        names = ("body", "rod", "block")
+        parts = tuple(sk.Part(name, collision=tuple(row)) for name, row in zip(names, shapes, strict=True))
+        joints = (
+            sk.Joint("slide", "prismatic", "body", "rod", axis=(0, 0, 1), limits=sk.Limits(-0.4, 0.0)),
+            sk.Joint("pull", "prismatic", "body", "block", axis=(0, 1, 0), limits=sk.Limits(0.0, 0.3)),
+        )
+        asset = sk.Asset("rod", boxes_mesh(boxes), np.repeat(range(3), 12), parts, joints)
+        assert overlaps(asset) == ()
+        (found,) = stopped_by_shapes(asset)
+        assert (found.one, found.other) == ("rod", "block")
+
 
 class TestSeparated:
     def test_both_give_way_alike_and_only_where_they_meet(self) -> None:
