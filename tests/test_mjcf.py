@@ -124,6 +124,7 @@ def test_joints_and_surfaces_have_the_asset_numbers(tmp_path: Path) -> None:
     np.testing.assert_array_equal(model.geom("body_collision_0").friction, [0.5, 0.005, 0.0001])
     assert model.opt.timestep == 0.001
     assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    assert model.opt.tolerance == 1e-10  # else a handle of 0.1 kg creeps on a gate of 560 kg
 
 
 def test_two_exports_are_identical_and_hold_no_absolute_path(tmp_path: Path) -> None:

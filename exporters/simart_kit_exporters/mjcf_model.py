@@ -70,6 +70,8 @@ def empty_model(name: str, flavor: Flavor, timestep: float, directory: Path) -> 
     # The file then holds the asset's own numbers, to all digits, instead of what compilation made of them.
     spec.compiler.savecompiled = spec.compiler.savecanonical = False
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    # By default the solver is content once what it errs by is little for the heaviest: handles would creep.
+    spec.option.tolerance = 1e-10
     spec.option.timestep = timestep
     _add_classes(spec, flavor)
     return Model(spec, flavor, folder)

@@ -28,6 +28,7 @@ def spec_of(mechanism: Mechanism) -> mujoco.MjSpec:
     spec = mujoco.MjSpec()
     spec.compiler.degree = False
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.tolerance = 1e-10  # as in our MJCF: light parts on heavy ones would creep
     made, origins = {WORLD: spec.worldbody}, {WORLD: np.zeros(3)}
     above = {link.child: link for link in mechanism.links}
     for source in mechanism.order:
