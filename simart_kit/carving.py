@@ -30,7 +30,7 @@ _SHORTER = 0.05  # of the object's diagonal that a part's box may lose on a side
 def carved_apart(asset: Asset, work: int = WORK, beside: Beside = ALONE) -> Asset:
     """The asset without overlaps at rest: of two parts the one gives way that loses the smaller share.
 
-    It is cut along the planes of the other's shapes; one that would get very many of them stays as it is, and
+    It is cut along the planes of the other's shapes; one that has very many by then is only cut smaller, and
     none gives way that would lose much of its extent by it, as one with a pivot within another's blade.
 
     Args:
