@@ -157,14 +157,15 @@ def _reached(model: mujoco.MjModel, joint: int, span: Span, others: FloatArray) 
 def _end(model: mujoco.MjModel, joint: int, limit: float, others: FloatArray) -> float:
     import mujoco
 
-    from .checks.ways import subtree
+    from .checks.ways import meet, moving_alone, subtree
     from .separation import STUCK
 
-    data, mine = mujoco.MjData(model), subtree(model, int(model.jnt_bodyid[joint]))
+    model, mine = moving_alone(model, joint), subtree(model, int(model.jnt_bodyid[joint]))
+    data = mujoco.MjData(model)
     data.qpos[:], last = others, 0.0
     for stop in limit * np.arange(1, _STOPS + 1) / _STOPS if limit else ():
         data.qpos[model.jnt_qposadr[joint]] = stop
-        mujoco.mj_fwdPosition(model, data)
+        meet(model, data)
         depth = _deepest(model, data, mine)
         if depth > STUCK:
             return last

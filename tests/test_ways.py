@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
 
 from simart_kit import Subject
 from simart_kit.checks.names import joint_name
-from simart_kit.checks.ways import Ways
+from simart_kit.checks.simulation import contacts
+from simart_kit.checks.ways import Ways, meet, moving_alone
 
 from .checks_cases import judged, mjcf
 
@@ -66,6 +68,34 @@ class TestWay:
     def test_two_that_wait_for_each_other_never_move(self, tmp_path: Path) -> None:
         subject = mjcf(tmp_path, LOCKED)
         assert opened_for(subject, "one_slide") == opened_for(subject, "two_slide") == ()
+
+
+class TestMovingAlone:
+    # Two that stand in each other, beside.
+    BESIDE = "".join(
+        f'''<body name="{name}" pos="5 0 {height}"><joint name="{name}_slide" type="slide" range="0 1"/>
+        <geom type="box" size="0.1 0.1 0.1"/></body>'''
+        for name, height in (("lower", 0.0), ("upper", 0.1))
+    )
+
+    def test_it_meets_what_it_would_among_all_others_and_nothing_else_does(self, tmp_path: Path) -> None:
+        model = cupboard(tmp_path, more=self.BESIDE).simulation.model
+        rack = model.joint("rack_slide")
+        alone = moving_alone(model, rack.id)
+        data, other = mujoco.MjData(model), mujoco.MjData(alone)
+        data.qpos[rack.qposadr] = other.qpos[rack.qposadr] = 0.1
+        mujoco.mj_forward(model, data)
+        meet(alone, other)
+        among_all, found = contacts(model, data), contacts(alone, other)
+        assert set(among_all) == {("door", "rack"), ("lower", "upper")}
+        assert found == {("door", "rack"): among_all["door", "rack"]}
+
+    def test_masks_of_a_file_stay(self, tmp_path: Path) -> None:
+        beside = self.BESIDE.replace("<geom", '<geom contype="2" conaffinity="4"')
+        model = cupboard(tmp_path, more=beside).simulation.model
+        alone = moving_alone(model, model.joint("rack_slide").id)
+        np.testing.assert_array_equal(alone.geom_contype, model.geom_contype)
+        np.testing.assert_array_equal(alone.geom_conaffinity, model.geom_conaffinity)
 
 
 class TestChecks:

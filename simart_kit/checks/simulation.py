@@ -120,7 +120,7 @@ def _without_looks(spec: mujoco.MjSpec) -> mujoco.MjSpec:
 
 
 def contacts(model: mujoco.MjModel, data: mujoco.MjData) -> dict[tuple[str, str], Contact]:
-    """The deepest contact of each pair of bodies, as `mj_forward` left them."""
+    """The deepest contact of each pair of bodies, as `mj_collision` left them."""
     deepest: dict[tuple[int, int], int] = {}
     bodies, depths = model.geom_bodyid[data.contact.geom], -data.contact.dist
     for index in np.flatnonzero(depths > 0).tolist():

@@ -14,7 +14,7 @@ from ..stages import Options as StageOptions
 from . import CheckResult, Fault
 from .names import body_name, joint_name
 from .subject import Subject
-from .ways import Ways, told
+from .ways import Ways, meet, moving_alone, told
 
 if TYPE_CHECKING:
     import mujoco
@@ -109,17 +109,18 @@ def _passing(subject: Subject) -> set[str]:
 
 
 def _faults(model: mujoco.MjModel, joint: int, places: FloatArray, others: FloatArray) -> list[Fault]:
-    """The deepest pose of each pair of bodies that meet while a joint moves."""
+    """The deepest pose of each pair of bodies that a joint moves into each other."""
     import mujoco
 
     from .simulation import contacts
 
-    data, name, deepest = mujoco.MjData(model), joint_name(model, joint), dict[tuple[str, str], Fault]()
+    alone = moving_alone(model, joint)
+    data, name, deepest = mujoco.MjData(alone), joint_name(model, joint), dict[tuple[str, str], Fault]()
     for position in places:
         data.qpos[:] = others
         data.qpos[model.jnt_qposadr[joint]] = position
-        mujoco.mj_forward(model, data)
-        for pair, contact in contacts(model, data).items():
+        meet(alone, data)
+        for pair, contact in contacts(alone, data).items():
             if pair not in deepest or deepest[pair].depth < contact.depth:
                 where = {name: float(position)}
                 deepest[pair] = Fault(where, contact.point, contact.depth, " in ".join(pair))

@@ -7,6 +7,7 @@ so, if need be after others. Two that wait for each other never move.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -95,7 +96,8 @@ class Ways:
         """How deep a joint drives what it moves into other bodies on its way [m]."""
         import mujoco
 
-        model, data = self.model, mujoco.MjData(self.model)
+        model = moving_alone(self.model, joint)
+        data = mujoco.MjData(model)
         data.qpos[:] = self._posed(opened)
         lower, upper = (float(end) for end in model.jnt_range[joint])
         mine, found = subtree(model, int(model.jnt_bodyid[joint])), dict[int, float]()
@@ -103,7 +105,7 @@ class Ways:
             lower, upper = 0.0, 2 * np.pi
         for position in np.linspace(lower, upper, _STOPS):
             data.qpos[model.jnt_qposadr[joint]] = position
-            mujoco.mj_fwdPosition(model, data)
+            meet(model, data)
             depths = -data.contact.dist
             deep = depths > _TOUCH
             bodies = model.geom_bodyid[data.contact.geom[deep]]
@@ -132,6 +134,28 @@ def _ancestors(model: mujoco.MjModel, body: int) -> list[int]:
     while found[-1]:
         found.append(int(model.body_parentid[found[-1]]))
     return found
+
+
+def moving_alone(model: mujoco.MjModel, joint: int) -> mujoco.MjModel:
+    """A copy in which what a joint moves meets what it does not, and nothing else meets anything.
+
+    What else touches does so wherever the joint is, and among many parts takes nearly all of the time. A file
+    that has masks of its own keeps them.
+    """
+    alone, meets = copy(model), np.array(model.geom_contype)
+    if np.array_equal(meets, model.geom_conaffinity) and np.isin(meets, (0, 1)).all():
+        mine = np.array(subtree(model, int(model.jnt_bodyid[joint])))[model.geom_bodyid]
+        alone.geom_contype[:] = np.where(mine, 1, 2) * meets
+        alone.geom_conaffinity[:] = np.where(mine, 2, 1) * meets
+    return alone
+
+
+def meet(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Find the contacts at `data.qpos`, and no forces."""
+    import mujoco
+
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_collision(model, data)
 
 
 def subtree(model: mujoco.MjModel, body: int) -> list[bool]:
