@@ -157,24 +157,17 @@ def _reached(model: mujoco.MjModel, joint: int, span: Span, others: FloatArray) 
 def _end(model: mujoco.MjModel, joint: int, limit: float, others: FloatArray) -> float:
     import mujoco
 
-    from .checks.ways import meet, moving_alone, subtree
+    from .checks.ways import meet, moving_alone
     from .separation import STUCK
 
-    model, mine = moving_alone(model, joint), subtree(model, int(model.jnt_bodyid[joint]))
-    data = mujoco.MjData(model)
-    data.qpos[:], last = others, 0.0
+    alone = moving_alone(model, joint)
+    data, last = mujoco.MjData(alone), 0.0
+    data.qpos[:] = others
     for stop in limit * np.arange(1, _STOPS + 1) / _STOPS if limit else ():
         data.qpos[model.jnt_qposadr[joint]] = stop
-        meet(model, data)
-        depth = _deepest(model, data, mine)
+        meet(alone, data)
+        depth = float(-data.contact.dist.min(initial=0.0))  # all of it between what moves and what does not
         if depth > STUCK:
             return last
         last = float(stop) if depth <= _TOUCH else last
     return limit
-
-
-def _deepest(model: mujoco.MjModel, data: mujoco.MjData, mine: list[bool]) -> float:
-    """[m] how deep what moves is in what does not."""
-    one, two = np.array(mine)[model.geom_bodyid[data.contact.geom]].T
-    between = -data.contact.dist[one != two]
-    return float(between.max()) if len(between) else 0.0

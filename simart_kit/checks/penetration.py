@@ -49,8 +49,9 @@ def _at_rest(model: mujoco.MjModel) -> dict[tuple[str, str], Contact]:
 
     from ..bench.mujoco_driving import rest_positions
     from .simulation import contacts
+    from .ways import meet
 
     data = mujoco.MjData(model)
     data.qpos[:] = rest_positions(model)
-    mujoco.mj_forward(model, data)
+    meet(model, data)
     return contacts(model, data)

@@ -56,10 +56,11 @@ def _without_bursting(model: mujoco.MjModel) -> None:
     import mujoco
 
     from .simulation import middle
+    from .ways import meet
 
     data = mujoco.MjData(model)
     data.qpos[:] = middle(model)
-    mujoco.mj_fwdPosition(model, data)
+    meet(model, data)
     if (data.contact.dist < 0).any():
         model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
 
