@@ -94,8 +94,7 @@ def parse_recipe(table: Mapping[str, Any], plugins: Plugins, where: str) -> Reci
     try:
         recipe = Recipe.model_validate_json(json.dumps(table, default=str))
     except ValidationError as error:
-        keys = ", ".join(field.alias or name for name, field in Recipe.model_fields.items())
-        mistakes += [_told(e["loc"], e, keys if len(e["loc"]) == 1 else "") for e in error.errors()]
+        mistakes += [_told(e["loc"], e, _keys(e["loc"])) for e in error.errors()]
     found, failed = _stage_mistakes(table, plugins)
     mistakes += found
     if mistakes or recipe is None:
@@ -214,6 +213,12 @@ def _place(key: str, use: Mapping[str, Any]) -> str:
 def _option_mistakes(place: tuple[str, ...], stage: type[Stage], error: ValidationError) -> list[str]:
     known = ", ".join(stage.Options.model_fields) or "none"
     return [_told((*place, *e["loc"]), e, known) for e in error.errors()]
+
+
+def _keys(location: tuple[int | str, ...]) -> str:
+    """The keys that there are where one of a recipe is wrong; "" where its own table tells."""
+    table = Recipe if len(location) == 1 else Use if location[0] in (*_SINGLES, *LISTS) else None
+    return ", ".join(field.alias or name for name, field in table.model_fields.items()) if table else ""
 
 
 def _told(location: tuple[int | str, ...], error: Any, known: str = "") -> str:

@@ -273,6 +273,8 @@ def test_set_reaches_every_entry_of_that_use_and_no_other():
         ("modify.tint=1", "name a field too"),
         ("extends=usd", "extends"),
         ("segmenter.options.maximum=1", "known are max_parts, sizes, label"),
+        ("segmenter.max_parts=1", r"segmenter\.max_parts: no such key .*, known are use, options"),
+        ("modify.tint.mode=1", "mode: no such key .*, known are use, options"),
         ("seed=1.5", "seed"),
         ("modify=3", "modify"),
         ("stage_timeout=inf", "stage_timeout"),
