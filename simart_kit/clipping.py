@@ -12,6 +12,7 @@ from .primitive_meshes import pose, primitive_shape
 from .primitives import Primitive
 
 _ALIGNED = 1 - 1e-6  # cosine from which a direction counts as a primitive's own axis
+_LEFT = 0.5  # share of its diameter down to which what is round shrinks; it is cut where more has to go
 
 
 def extent(shape: ConvexMesh, axis: FloatArray) -> float:
@@ -24,7 +25,7 @@ def pulled_in(shape: ConvexMesh, axis: FloatArray, amount: float) -> ConvexMesh:
     """The shape without what lies within `amount` [m] of its farthest end along a (3,) unit axis.
 
     A box or a cylinder that ends flat there stays one, and so does a sphere, or a cylinder's side, which
-    shrinks all around.
+    shrinks all around, if half of it is left.
     """
     if amount <= 0:
         return shape
@@ -42,7 +43,8 @@ def _shorter(primitive: Primitive, axis: FloatArray, amount: float) -> Primitive
     round_ = primitive.kind == "sphere" or (primitive.kind == "cylinder" and abs(own[2]) < 1e-3)
     if round_:
         size = np.array(primitive.size) - 2 * amount * np.array([1, 1, primitive.kind == "sphere"])
-        return Primitive(primitive.kind, vec3(size), primitive.asset_T_shape)
+        left = size[0] >= _LEFT * primitive.size[0]
+        return Primitive(primitive.kind, vec3(size), primitive.asset_T_shape) if left else None
     if abs(own[along]) < _ALIGNED or (primitive.kind == "cylinder" and along != 2):
         return None
     rotation, middle = primitive.asset_T_shape[:3, :3], primitive.asset_T_shape[:3, 3]

@@ -179,6 +179,14 @@ class TestPulledIn:
         assert thinner.primitive is not None
         assert thinner.primitive.size == pytest.approx((0.18, 0.18, 0.6))
 
+    @pytest.mark.parametrize("kind", ["cylinder", "sphere"])
+    def test_what_is_round_is_cut_where_little_would_be_left_of_it(self, kind: PrimitiveKind) -> None:
+        round_ = round_shape(kind, (0.2, 0.2, 0.2), (0, 0, 0))
+        shape = pulled_in(round_, np.array([1.0, 0.0, 0.0]), 0.15)
+        assert shape.primitive is None
+        assert shape.vertices[:, 0].max() == pytest.approx(-0.05)
+        assert shape.vertices[:, 0].min() == pytest.approx(round_.vertices[:, 0].min())
+
     def test_across_its_axes_a_block_becomes_a_hull_without_its_corner(self) -> None:
         diagonal = np.ones(3) / np.sqrt(3)
         shape = pulled_in(UNIT, diagonal, 0.1)
