@@ -9,6 +9,7 @@ import pytest
 
 FAKES = '''
 import os, time
+import manifold3d
 import numpy as np
 from pydantic import Field
 import simart_kit as sk
@@ -30,6 +31,9 @@ class Labels(sk.Segmenter):
             time.sleep(60)
         if self.options.fault == "raise":
             raise RuntimeError("out of ideas")
+        if self.options.fault == "raise with a solid":
+            solid = manifold3d.Manifold.cube()
+            raise RuntimeError(f"cannot mend {solid.volume()}")
         if self.options.fault == "interrupt":
             raise KeyboardInterrupt
         names = ("body", "door", "drawer")

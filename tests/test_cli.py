@@ -163,6 +163,12 @@ def test_a_failed_stage_tells_where_its_input_is(home, capfd):
     assert sorted(path.name for path in kept.iterdir()) == ["error.txt", "input"]
 
 
+def test_what_a_failed_stage_held_is_no_leak_that_libraries_tell_of(home):
+    code, _, err = finish(process(*CONVERT, "-q", "--set", "segmenter.options.fault=raise with a solid"))
+
+    assert (code, len(err.splitlines())) == (1, 1), err
+
+
 @pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM], ids=["ctrl-c", "kill"])
 def test_a_signal_ends_a_run_that_hangs_and_leaves_nothing(home, sent):
     running = process(*CONVERT, "--set", "segmenter.options.fault=hang")

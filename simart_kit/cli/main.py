@@ -32,7 +32,9 @@ def main() -> None:
         sys.stdout.reconfigure(errors="backslashreplace")  # a terminal may not know every letter of a path
     code = run(sys.argv[1:])
     # All that is left ends with the process: to look through it for cycles first takes a third of a second.
-    gc.freeze()
+    # What a failure leaves in its traceback is let go of, since libraries complain of what they find then.
+    if code == 0:
+        gc.freeze()
     sys.exit(code)
 
 
