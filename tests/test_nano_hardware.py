@@ -38,3 +38,16 @@ def test_a_handle_that_moves_itself_hangs_on_the_leaf_that_it_stands_before() ->
     leaf, small = with_hardware(MESH, PIECE, [LEAF, handle])
     assert (leaf.parent, small.parent) == (None, 0)
     assert set(PIECE[small.faces]) == {3}
+
+
+def test_a_rail_behind_a_front_that_would_hit_the_next_one_stays() -> None:
+    """It touches the lower front all along, which could not be pushed in past it."""
+    low, high = ((-0.5, 0.0, 0.0), (0.5, 0.02, 0.3)), ((-0.5, 0.0, 0.31), (0.5, 0.02, 0.6))
+    back = ((-0.5, 0.4, 0.0), (0.5, 0.42, 0.6))
+    slide = Joint("j", "prismatic", "body", "drawer", axis=(0.0, -1.0, 0.0), limits=Limits(0.0, 0.3))
+    piece = np.repeat(np.arange(4), 12)
+    fronts = [Proposal(piece == k, PartGuess("drawer"), slide, None) for k in (0, 1)]
+    for end, taken in ((0.32, {0}), (0.295, {0, 2})):
+        mesh = boxes_mesh([low, high, ((-0.48, 0.02, 0.27), (0.48, 0.03, end)), back])
+        lower, _ = with_hardware(mesh, piece, fronts)
+        assert set(piece[lower.faces]) == taken

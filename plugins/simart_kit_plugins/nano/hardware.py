@@ -1,7 +1,7 @@
 """What stays with the body although only a moving part holds it: straps, stiles, pointers, handles behind.
 
-A person tells by two things: it lies along the part, not along the rest; and nothing else holds it, or the
-part could not move past it.
+A person tells by three things: it lies along the part, not along the rest; nothing else holds it, or the part
+could not move past it; and the rest does not stop it on the part's way.
 """
 
 from __future__ import annotations
@@ -82,7 +82,8 @@ class _Surface:
         if apart[best].min() > near or np.mean(apart[best] < rest) < _ALONG:
             return None
         alone = own < 0 and rest.min() > near
-        return best if alone or _stops(mesh, self._proposals[best], faces) else None
+        held = alone or _stops(mesh, self._proposals[best], faces)
+        return best if held and _goes_along(mesh, self._proposals[best], faces) else None
 
 
 def _distances(points: FloatArray, others: FloatArray) -> FloatArray:
@@ -101,6 +102,15 @@ def _stops(mesh: Mesh, proposal: Proposal, faces: BoolArray) -> bool:
     ways = (joint, _turned_back(joint)) if joint.kind == "prismatic" else (joint,)
     wanted = joint.limits.upper - joint.limits.lower
     return any(np.ptp(free_range(way, sweep, _STEPS)) < _FREE * wanted for way in ways)
+
+
+def _goes_along(mesh: Mesh, proposal: Proposal, faces: BoolArray) -> bool:
+    """Whether (F,) faces can move as a part does: a rail behind a drawer's front would hit the next one."""
+    joint, others = proposal.joint, ~proposal.faces & ~faces
+    if joint.limits is None or not others.any():
+        return True
+    sweep = Sweep(mesh.vertices, mesh.faces[faces], mesh.faces[others], holes=True)
+    return bool(np.ptp(free_range(joint, sweep, _STEPS)) >= _FREE * (joint.limits.upper - joint.limits.lower))
 
 
 def _turned_back(joint: Joint) -> Joint:
