@@ -17,7 +17,7 @@ HINGED = ("door", "lid", "flap", "cover", "hatch", "gate", "window", "hinge")
 STANDING_OPEN = (*HINGED, "screen", "display", "tailgate")
 RACKS = ("rack", "tray", "basket")
 SPINNING = ("wheel", "knob", "caster", "dial", "fan", "rotor")
-_TALL = 2.0  # times as high as wide, a leaf never hangs by its lower or upper edge
+_TALL = 2.0  # times as high as wide, a leaf never hangs by its lower or upper edge, nor so wide by its sides
 AJAR = np.deg2rad(1.0)
 
 
@@ -91,7 +91,9 @@ def edge_score(view: View, hinge: Candidate, around: Surroundings) -> Score:
     meets = _neighbour_beyond(view, hinge, around)
     upright = hinge.edge in ("left", "right")
     lid = view.facing == "top"
-    tall = not upright and not lid and bool(view.box.size[1] > _TALL * view.box.size[0])
+    width, height = view.box.size[:2]
+    tall = not upright and not lid and bool(height > _TALL * width)
+    wide = upright and bool(width > _TALL * height)
     # What is of neither of two leaves, where they meet, is a lock or a handle; below a tall one are feet.
     hardware = [] if meets or tall else hardware_on(view, hinge, around)
     bar = view.handle is not None and view.handle.size[0] > view.handle.size[1]
@@ -109,7 +111,7 @@ def edge_score(view: View, hinge: Candidate, around: Surroundings) -> Score:
         (-0.7, meets, ""),
         (0.3, _at_body_edge(view, hinge), "at the outer edge of the body"),
         (-0.6, not upright and not lid, ""),
-        (-0.8, tall, ""),
+        (-0.8, tall or wide, ""),
         (-0.5, meets and hinge.edge in around.unheld, ""),
         (0.5, lid and hinge.edge == "top", "lids open from the back"),
         (-0.4, lid and hinge.edge == "bottom", ""),

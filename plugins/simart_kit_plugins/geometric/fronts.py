@@ -26,7 +26,9 @@ _LARGE = 0.25  # share of a panel's rectangle from which on a piece that lies on
 _BOARD = 0.15  # thickness of a board, as a share of its width
 _WHOLE = 0.9  # share of a panel's rectangle that it fills
 _SMALLER = 0.95  # the same of a board that lies on a panel: a larger one is another panel
+_OVERHANG = 0.05  # of its width or height that a handle may reach over its panel's edge
 _GRIPS = 0.15  # share of a panel's rectangle that what one takes hold of covers at most
+_PULL = 0.5  # of its panel's shorter side that a low pull takes at most
 _AROUND = np.diag([-1.0, 1.0, -1.0])  # (u, v, w) as seen from the other side
 
 
@@ -52,7 +54,7 @@ class Front:
         loose: whether there is a gap, if a small one, to everything beside what moves with it.
         share: of the side's whole rectangle.
         tall: its height as a share of the whole's.
-        handles_middle: (3,) middle of all handles, or of the piece without any.
+        grip: (3,) middle of all handles, or of pulls so low that they are inlays; None without any.
         grips: how many handles there are that do not touch each other.
     """
 
@@ -73,7 +75,7 @@ class Front:
     loose: bool
     share: float
     tall: float
-    handles_middle: FloatArray
+    grip: FloatArray | None
     grips: int
 
     @property
@@ -151,7 +153,7 @@ def _front(
         loose=not any(contacts.within(piece, i, LOOSE) for i in range(len(boxes)) if i not in own),
         share=float(np.prod(box.size[:2]) / np.prod(whole.size[:2])),
         tall=float(box.size[1] / whole.size[1]),
-        handles_middle=np.mean([boxes[i].center for i in handles or (piece,)], axis=0),
+        grip=_middle(boxes, handles or _pulls(boxes, piece, inlays)),
         grips=_separate(contacts, boxes, handles),
     )
 
@@ -236,7 +238,7 @@ def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int
         i
         for i, box in enumerate(boxes)
         if i not in (piece, *inlays)
-        and box.lies_in(panel, 0.5 * TOUCH)
+        and box.lies_in(panel, 0.5 * TOUCH, _OVERHANG)
         and box.upper[2] > panel.upper[2] + 0.5 * TOUCH
         and box.upper[2] > reach
         and np.prod(box.size[:2]) < _LARGE * np.prod(panel.size[:2])
@@ -253,6 +255,16 @@ def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int
 
     on = hanging_on(on, found, joined)
     return tuple(i for i in found if i in on)
+
+
+def _pulls(boxes: list[Box], piece: int, inlays: tuple[int, ...]) -> tuple[int, ...]:
+    """Inlays that are small both ways, as no moulding is."""
+    most = _PULL * boxes[piece].size[:2].min()
+    return tuple(i for i in inlays if boxes[i].size[:2].max() < most)
+
+
+def _middle(boxes: list[Box], pieces: tuple[int, ...]) -> FloatArray | None:
+    return np.mean([boxes[i].center for i in pieces], axis=0) if pieces else None
 
 
 def _grips(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int, ...]) -> tuple[int, ...]:
@@ -277,7 +289,7 @@ def _separate(contacts: Contacts, boxes: list[Box], handles: tuple[int, ...]) ->
 def _glazing_bar(box: Box, panel: Box) -> bool:
     """Whether a piece runs across a pane from edge to edge and stands out on both sides: it divides it."""
     across = (box.size[:2] > 0.95 * panel.size[:2]).any()
-    return bool(across and box.lower[2] < panel.lower[2] and box.upper[2] > panel.upper[2])
+    return bool(across and box.lower[2] < panel.lower[2] - LOOSE and box.upper[2] > panel.upper[2])
 
 
 def meet(contacts: Contacts, boxes: Sequence[Box], one: int, other: int) -> bool:

@@ -26,9 +26,12 @@ MOST = 0.4  # share of its side that the leaf in a doorway takes
 _ALL = 0.99  # share of its side from which on a front leaves nothing else of it
 _SHEET = 1e-4  # what is thinner has no back of its own
 _MOST_OPEN = 0.5  # share of its side that a drawer which stands open takes: larger boxes hold the rest
+_SMALL = 0.15  # share of its side that a drawer takes which has neither a back behind it nor walls all around
 _DOORWAY = 0.7  # share of rays to the sides that meet the frame behind a leaf: there is no sill
 _ROW = 3  # so many alike are a row
 _CONTROLS, _STRIP = 4, 2.5  # so many things on a strip so many times as wide as high are controls
+_ACROSS = 0.85  # share of the width of its side that a strip takes which bears controls
+_LOW, _MIDDLE = 1.6, 0.2  # so many times as wide as high a drawer is, and so near its middle are its handles
 _TWIN = 0.5  # how sure a front is of which only its twin opens by itself
 _BARE = 0.6  # how sure a front is that only the parting of a skin tells
 _DOUBTFUL = 0.3  # how sure a front is that takes its whole side, and for which nothing else speaks
@@ -61,6 +64,8 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     fronts = {facing: find_fronts(scene, contacts, facing, fused) for facing in FACINGS}
     in_rows = {facing: [] if fused else _rows(scene, fronts[facing]) for facing in FACINGS}
     main = _main_side(fronts, in_rows)
+    if main != "top" and any(map(_opens_by_handle, fronts[main])):
+        fronts["top"] = []  # it lies on what these open: a worktop, with taps on it
     every = [front for facing in FACINGS for front in fronts[facing]]
     able = [] if fused else [front for front in every if _is_panel(front)]
     tracks = passing(scene, [front for front in able if front.framed >= 0.5])
@@ -81,7 +86,7 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     scored += [(_TWIN, front) for front in in_rows[main] if front.piece not in known]
     scored += [(_TWIN, front) for front in twins(scene, [front for _, front in scored], able)]
     tracks |= {front.piece for _, front in scored if _is_panel(front) and slides_over(scene, front)}
-    drawers = stacked([front for _, front in scored]) if fused else set()
+    drawers = stacked([front for _, front in scored])
     labels = dict.fromkeys(drawers, "drawer") | dict.fromkeys(tracks, "sliding_door")
     return _apart(scored, set(), labels)
 
@@ -175,17 +180,28 @@ def _score(front: Front, main: bool, fused: bool) -> float:
         return 0.0
     if front.share > _ALL and front.box.size[2] < _SHEET and not front.loose:
         return 0.0  # a side of a housing, to which the others are joined
-    if _bears_controls(front):
+    if _is_fascia(front):
         return 0.0
     if _opens_by_handle(front):
         return 0.9 if main else 0.6
     return 0.6 if main and not fused and _opens_by_place(front) else 0.0
 
 
-def _bears_controls(front: Front) -> bool:
-    """A strip with more on it than one takes hold of: knobs and buttons, as above a washer's door."""
+def _is_fascia(front: Front) -> bool:
+    """A strip that bears controls, as above a washer's door, or hides the knees of who sits at a desk.
+
+    It has more on it than one takes hold of, or has it where nobody would to draw it out, or there is nothing
+    behind it.
+    """
     width, height = front.box.size[:2]
-    return not front.boxed and front.grips >= _CONTROLS and bool(width > _STRIP * height)
+    if width <= _STRIP * height:
+        return False
+    if front.grips >= _CONTROLS:
+        return True
+    if front.boxed or front.grip is None:
+        return False
+    hides = front.backed < OPEN and front.grips > 1
+    return hides or (front.share > _ACROSS * front.tall and not _like_drawer(front))
 
 
 def _opens_by_handle(front: Front) -> bool:
@@ -195,8 +211,14 @@ def _opens_by_handle(front: Front) -> bool:
     if front.facing == "top":
         return _is_panel(front) and _closes_cavity(front)
     if front.boxed:
-        return front.walled >= 0.5 or (front.share < _MOST_OPEN and (front.hollow or bool(front.behind)))
+        standing_open = front.share < _MOST_OPEN and (front.hollow or bool(front.behind))
+        return _in_a_body(front) and (front.walled >= 0.5 or standing_open)
     return _is_panel(front) and (front.backed >= ENCLOSED or front.framed >= FRAMED or _in_doorway(front))
+
+
+def _in_a_body(front: Front) -> bool:
+    """Whether something is behind a box, or all around it, as around none that carries the rest."""
+    return front.backed >= OPEN or front.walled >= ENCLOSED or front.share < _SMALL
 
 
 def _in_doorway(front: Front) -> bool:
@@ -236,11 +258,15 @@ def _label(front: Front) -> str:
 
 
 def _like_drawer(front: Front) -> bool:
-    """A low, wide front with its handles in the middle: the box behind was left out of the model."""
-    if not front.handles or front.box.size[0] < 1.6 * front.box.size[1]:
+    """A low, wide front with its handles in the middle: the box behind was left out of the model.
+
+    What is so wide that it is no flap may have them higher or lower.
+    """
+    width, height = front.box.size[:2]
+    if front.grip is None or width < _LOW * height:
         return False
-    off = (front.handles_middle - front.box.center)[:2] / front.box.size[:2]
-    return bool(np.abs(off).max() < 0.2)
+    across, up = np.abs(front.grip - front.box.center)[:2] / (width, height)
+    return bool(across < _MIDDLE and (up < _MIDDLE or width > _STRIP * height))
 
 
 def _evidence(front: Front) -> tuple[str, ...]:

@@ -62,15 +62,22 @@ class Box:
         corners = np.stack([facing @ self.lower, facing @ self.upper])
         return Box(corners.min(axis=0), corners.max(axis=0))
 
-    def lies_in(self, other: Box, margin: float) -> bool:
-        """Whether the rectangle of its first two axes lies in that of another, or sticks out by `margin`."""
+    def lies_in(self, other: Box, margin: float, share: float = 0.0) -> bool:
+        """Whether the rectangle of its first two axes lies in that of another.
+
+        Args:
+            other: the larger one.
+            margin: how far it may stick out.
+            share: of its own width that it may stick out to the sides, and of its height up and down.
+        """
         (x, y, _), (far_x, far_y, _) = self._corners
         (other_x, other_y, _), (other_far_x, other_far_y, _) = other._corners
+        across, up = max(margin, share * (far_x - x)), max(margin, share * (far_y - y))
         return (
-            x >= other_x - margin
-            and far_x <= other_far_x + margin
-            and y >= other_y - margin
-            and far_y <= other_far_y + margin
+            x >= other_x - across
+            and far_x <= other_far_x + across
+            and y >= other_y - up
+            and far_y <= other_far_y + up
         )
 
     def overlap(self, other: Box, margin: float) -> bool:
