@@ -107,6 +107,14 @@ def test_the_walls_of_a_table_game_are_no_drawer() -> None:
     assert found([field, floor, *long_sides, *short_sides, *rods, *legs(1.0, 0.6, 0.699)]).kinds == {}
 
 
+def test_wide_fronts_in_a_column_with_handles_aside_are_doors() -> None:
+    fronts = [panel((-0.279, 0.279), -0.2, z) for z in ((0.021, 0.297), (0.303, 0.579))]
+    shelf = box((-0.28, 0.28), (-0.19, 0.19), (0.291, 0.309))
+    bars = [bar(0.24, z, -0.2) for z in (0.159, 0.441)]
+    result = found([*carcass((-0.3, 0.3), (-0.2, 0.2), (0.0, 0.6)), shelf, *fronts, *bars])
+    assert result.kinds == {"lower_door": "revolute", "upper_door": "revolute"}
+
+
 def test_alike_wide_fronts_in_a_column_are_drawers_and_a_single_one_is_a_flap() -> None:
     shelves = [box((-0.28, 0.28), (-0.19, 0.19), (z - 0.009, z + 0.009)) for z in (0.2, 0.4)]
     rows = [(0.021, 0.197), (0.203, 0.397), (0.403, 0.579)]

@@ -86,7 +86,7 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     scored += [(_TWIN, front) for front in in_rows[main] if front.piece not in known]
     scored += [(_TWIN, front) for front in twins(scene, [front for _, front in scored], able)]
     tracks |= {front.piece for _, front in scored if _is_panel(front) and slides_over(scene, front)}
-    drawers = stacked([front for _, front in scored])
+    drawers = stacked([front for _, front in scored if fused or not _held_aside(front)])
     labels = dict.fromkeys(drawers, "drawer") | dict.fromkeys(tracks, "sliding_door")
     return _apart(scored, set(), labels)
 
@@ -267,6 +267,12 @@ def _like_drawer(front: Front) -> bool:
         return False
     across, up = np.abs(front.grip - front.box.center)[:2] / (width, height)
     return bool(across < _MIDDLE and (up < _MIDDLE or width > _STRIP * height))
+
+
+def _held_aside(front: Front) -> bool:
+    """Whether the grip of a front is near one side, as that of a car's door below its window."""
+    off = 0.0 if front.grip is None else (front.grip - front.box.center)[0] / front.box.size[0]
+    return bool(abs(off) > _MIDDLE)
 
 
 def _evidence(front: Front) -> tuple[str, ...]:
