@@ -54,7 +54,8 @@ class Front:
         loose: whether there is a gap, if a small one, to everything beside what moves with it.
         share: of the side's whole rectangle.
         tall: its height as a share of the whole's.
-        grip: (3,) middle of all handles, or of pulls so low that they are inlays; None without any.
+        held: (2,) how far from its middle the middle of its handles is, or of pulls so low that they are
+            inlays, as shares of its width and height; None without any.
         grips: how many handles there are that do not touch each other.
     """
 
@@ -75,7 +76,7 @@ class Front:
     loose: bool
     share: float
     tall: float
-    grip: FloatArray | None
+    held: FloatArray | None
     grips: int
 
     @property
@@ -153,7 +154,7 @@ def _front(
         loose=not any(contacts.within(piece, i, LOOSE) for i in range(len(boxes)) if i not in own),
         share=float(np.prod(box.size[:2]) / np.prod(whole.size[:2])),
         tall=float(box.size[1] / whole.size[1]),
-        grip=_middle(boxes, handles or _pulls(boxes, piece, inlays)),
+        held=_held(boxes, piece, handles or _pulls(boxes, piece, inlays)),
         grips=_separate(contacts, boxes, handles),
     )
 
@@ -263,8 +264,11 @@ def _pulls(boxes: list[Box], piece: int, inlays: tuple[int, ...]) -> tuple[int, 
     return tuple(i for i in inlays if boxes[i].size[:2].max() < most)
 
 
-def _middle(boxes: list[Box], pieces: tuple[int, ...]) -> FloatArray | None:
-    return np.mean([boxes[i].center for i in pieces], axis=0) if pieces else None
+def _held(boxes: list[Box], piece: int, by: tuple[int, ...]) -> FloatArray | None:
+    if not by:
+        return None
+    panel, middle = boxes[piece], np.mean([boxes[i].center for i in by], axis=0)
+    return np.asarray((middle - panel.center)[:2] / panel.size[:2])
 
 
 def _grips(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int, ...]) -> tuple[int, ...]:

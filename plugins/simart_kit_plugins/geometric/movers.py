@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from .contact import Contacts
+from .drawer_fronts import STRIP, like_drawer, stacked
 from .fronts import OPEN, Front, find_fronts, thin
 from .sashes import passing, slides_over
 from .scene import FACINGS, Scene
 from .siblings import rows, twins
-from .skin_fronts import boards, leaves, on_tracks, parted_side, stacked
+from .skin_fronts import boards, leaves, on_tracks, parted_side
 
 ENCLOSED = 0.85  # share of rays behind a panel that must meet something for a cavity
 SHALLOWEST = 0.05  # a cavity is at least this deep
@@ -29,9 +28,8 @@ _MOST_OPEN = 0.5  # share of its side that a drawer which stands open takes: lar
 _SMALL = 0.15  # share of its side that a drawer takes which has neither a back behind it nor walls all around
 _DOORWAY = 0.7  # share of rays to the sides that meet the frame behind a leaf: there is no sill
 _ROW = 3  # so many alike are a row
-_CONTROLS, _STRIP = 4, 2.5  # so many things on a strip so many times as wide as high are controls
+_CONTROLS = 4  # so many things on a strip are controls
 _ACROSS = 0.85  # share of the width of its side that a strip takes which bears controls
-_LOW, _MIDDLE = 1.6, 0.2  # so many times as wide as high a drawer is, and so near its middle are its handles
 _TWIN = 0.5  # how sure a front is of which only its twin opens by itself
 _BARE = 0.6  # how sure a front is that only the parting of a skin tells
 _DOUBTFUL = 0.3  # how sure a front is that takes its whole side, and for which nothing else speaks
@@ -86,7 +84,7 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     scored += [(_TWIN, front) for front in in_rows[main] if front.piece not in known]
     scored += [(_TWIN, front) for front in twins(scene, [front for _, front in scored], able)]
     tracks |= {front.piece for _, front in scored if _is_panel(front) and slides_over(scene, front)}
-    drawers = stacked([front for _, front in scored if fused or not _held_aside(front)])
+    drawers = stacked([front for _, front in scored])
     labels = dict.fromkeys(drawers, "drawer") | dict.fromkeys(tracks, "sliding_door")
     return _apart(scored, set(), labels)
 
@@ -194,14 +192,14 @@ def _is_fascia(front: Front) -> bool:
     behind it.
     """
     width, height = front.box.size[:2]
-    if width <= _STRIP * height:
+    if width <= STRIP * height:
         return False
     if front.grips >= _CONTROLS:
         return True
-    if front.boxed or front.grip is None:
+    if front.boxed or front.held is None:
         return False
     hides = front.backed < OPEN and front.grips > 1
-    return hides or (front.share > _ACROSS * front.tall and not _like_drawer(front))
+    return hides or (front.share > _ACROSS * front.tall and not like_drawer(front))
 
 
 def _opens_by_handle(front: Front) -> bool:
@@ -254,25 +252,7 @@ def _closes_cavity(front: Front) -> bool:
 def _label(front: Front) -> str:
     if front.facing == "top":
         return "lid"
-    return "drawer" if front.boxed or _like_drawer(front) else "door"
-
-
-def _like_drawer(front: Front) -> bool:
-    """A low, wide front with its handles in the middle: the box behind was left out of the model.
-
-    What is so wide that it is no flap may have them higher or lower.
-    """
-    width, height = front.box.size[:2]
-    if front.grip is None or width < _LOW * height:
-        return False
-    across, up = np.abs(front.grip - front.box.center)[:2] / (width, height)
-    return bool(across < _MIDDLE and (up < _MIDDLE or width > _STRIP * height))
-
-
-def _held_aside(front: Front) -> bool:
-    """Whether the grip of a front is near one side, as that of a car's door below its window."""
-    off = 0.0 if front.grip is None else (front.grip - front.box.center)[0] / front.box.size[0]
-    return bool(abs(off) > _MIDDLE)
+    return "drawer" if front.boxed or like_drawer(front) else "door"
 
 
 def _evidence(front: Front) -> tuple[str, ...]:

@@ -46,11 +46,11 @@ def slides_over(scene: Scene, front: Front) -> bool:
 
     A leaf that is hinged there has its handle on the side of that room, and a flap one along its edge.
     """
-    if front.facing == "top" or front.boxed or not front.handles or front.grip is None:
+    if front.facing == "top" or front.boxed or not front.handles or front.held is None:
         return False
-    axes, box = FACINGS[front.facing], front.box
+    axes = FACINGS[front.facing]
     size = Box.around([scene.boxes[i].turned(axes) for i in front.handles]).size
-    place = 2 * (front.grip - box.center)[0] / box.size[0]
+    place = 2 * front.held[0]
     left, right = (_room(scene, axes, front, sign) for sign in (-1.0, 1.0))
     return bool(left != right and size[1] > size[0] and (place if right else -place) < _INNER)
 

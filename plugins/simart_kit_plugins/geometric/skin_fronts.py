@@ -23,7 +23,6 @@ _PLAIN = 0.7  # share of its side that what takes all of it has, but for rims an
 _LEAST, _MOST = 0.05, 0.92  # shares of its side that a panel takes
 _PARTED = 0.6  # share of a parted side that its panels take together
 _LEVEL = 0.03  # diagonals between the planes, and between the edges, of panels of one front
-_LOW = 1.6  # a drawer is so many times as wide as high
 _DEEP = 0.1  # of the diagonal, how far the other side is behind a panel
 _STRIP = 0.2  # share of the height up to which what runs along the floor or the top is a plinth or a fascia
 _WIDE = 0.85  # share of the width that these take
@@ -45,20 +44,6 @@ def parted_side(scene: Scene, fronts: Mapping[str, Sequence[Front]]) -> list[Fro
         if len(level) > pieces[opposite] and min(pieces[beside] for beside in _BESIDE[side]) == 1:
             found.append([front for front in level if not _is_strip(scene, front)])
     return max(found, key=len, default=[])
-
-
-def stacked(fronts: Sequence[Front]) -> set[int]:
-    """Pieces of wide fronts that lie above one another, as wide as each other: drawers."""
-    wide = [front for front in fronts if front.box.size[0] > _LOW * front.box.size[1]]
-    return {one.piece for one in wide for other in wide if one is not other and _above(one, other)}
-
-
-def _above(one: Front, other: Front) -> bool:
-    """Whether one of two fronts lies right above the other, edge over edge."""
-    ends = np.abs([one.box.lower - other.box.lower, one.box.upper - other.box.upper])
-    between = max(one.box.lower[1] - other.box.upper[1], other.box.lower[1] - one.box.upper[1])
-    in_row = one.facing == other.facing and ends[:, 0].max() < 0.05 * one.box.size[0]
-    return bool(in_row and ends[:, 2].max() < 2 * _LEVEL and abs(between) < _LEVEL)
 
 
 def leaves(scene: Scene, upright: Sequence[Front]) -> list[Front]:

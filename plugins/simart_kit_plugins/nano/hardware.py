@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from simart_kit.sweeping import Sweep, free_range, sample_faces
+from simart_kit.sweeping import Sweep, sample_faces
 
+from .pooling import stuck
 from .proposals import Proposal
 
 if TYPE_CHECKING:
@@ -24,7 +25,6 @@ _SAMPLES, _POINTS = 30_000, 100  # of the surface, and of a piece
 _SMALL = 0.2  # of the part's area that a piece may have
 _ALONG = 0.9  # share of a piece's points that lie nearer to the part than to the rest
 _TOUCH = 0.01  # of the object's diagonal: what is nearer holds
-_FREE, _STEPS = 0.25, 8  # a joint that goes less than this share of its way is stopped
 
 
 def with_hardware(mesh: Mesh, face_piece: IntArray, proposals: Sequence[Proposal]) -> list[Proposal]:
@@ -100,8 +100,7 @@ def _stops(mesh: Mesh, proposal: Proposal, faces: BoolArray) -> bool:
         return False
     sweep = Sweep(mesh.vertices, mesh.faces[proposal.faces], mesh.faces[faces])
     ways = (joint, _turned_back(joint)) if joint.kind == "prismatic" else (joint,)
-    wanted = joint.limits.upper - joint.limits.lower
-    return any(np.ptp(free_range(way, sweep, _STEPS)) < _FREE * wanted for way in ways)
+    return any(stuck(way, sweep) for way in ways)
 
 
 def _goes_along(mesh: Mesh, proposal: Proposal, faces: BoolArray) -> bool:
@@ -110,7 +109,7 @@ def _goes_along(mesh: Mesh, proposal: Proposal, faces: BoolArray) -> bool:
     if joint.limits is None or not others.any():
         return True
     sweep = Sweep(mesh.vertices, mesh.faces[faces], mesh.faces[others], holes=True)
-    return bool(np.ptp(free_range(joint, sweep, _STEPS)) >= _FREE * (joint.limits.upper - joint.limits.lower))
+    return not stuck(joint, sweep)
 
 
 def _turned_back(joint: Joint) -> Joint:

@@ -75,10 +75,18 @@ def pooled(
     return _carried(kept, place, {"first": first, "second": second})
 
 
+def stuck(joint: Joint, sweep: Sweep) -> bool:
+    """Whether a joint with limits is blocked both ways almost at once."""
+    if joint.limits is None:
+        return False
+    lower, upper = free_range(joint, sweep, _STEPS)
+    return upper - lower < _FREE * (joint.limits.upper - joint.limits.lower)
+
+
 def _held(mesh: Mesh, joint: Joint, faces: BoolArray, moving: BoolArray) -> bool:
     """Whether a part cannot move. One that slides may wait behind what moves, but not where all does."""
     others = ~faces & ~moving if joint.kind == "prismatic" else ~faces
-    return joint.limits is not None and (not others.any() or _stuck(joint, _sweep(mesh, faces, others)))
+    return joint.limits is not None and (not others.any() or stuck(joint, _sweep(mesh, faces, others)))
 
 
 def _lumped(areas: FloatArray, one: Proposal, others: Sequence[Proposal]) -> bool:
@@ -105,7 +113,7 @@ def _better(mesh: Mesh, one: Proposal, other: Proposal) -> Proposal:
     if alike or one.joint.limits is None:
         return one
     sweep = _sweep(mesh, one.faces, ~one.faces)
-    if _stuck(one.joint, sweep) and not _stuck(other.joint, sweep):
+    if stuck(one.joint, sweep) and not stuck(other.joint, sweep):
         return replace(one, joint=other.joint)
     return one
 
@@ -131,14 +139,6 @@ def _exact(mesh: Mesh, one: Proposal, others: Sequence[Proposal]) -> Proposal:
 
 def _sweep(mesh: Mesh, faces: BoolArray, against: BoolArray) -> Sweep:
     return Sweep(mesh.vertices, mesh.faces[faces], mesh.faces[against], holes=True)
-
-
-def _stuck(joint: Joint, sweep: Sweep) -> bool:
-    """Whether a joint with limits is blocked both ways almost at once."""
-    if joint.limits is None:
-        return False
-    lower, upper = free_range(joint, sweep, _STEPS)
-    return upper - lower < _FREE * (joint.limits.upper - joint.limits.lower)
 
 
 def _carried(
