@@ -23,13 +23,18 @@ def like_drawer(front: Front) -> bool:
     if front.held is None or not _low(front):
         return False
     up = abs(float(front.held[1]))
-    return not _held_aside(front) and (up < _MIDDLE or _times(front) > STRIP)
+    return not held_aside(front) and (up < _MIDDLE or _times(front) > STRIP)
 
 
 def stacked(fronts: Sequence[Front]) -> set[int]:
-    """Pieces of wide fronts that lie above one another, as wide as each other; none that is held aside."""
-    wide = [front for front in fronts if _low(front) and not _held_aside(front)]
+    """Pieces of wide fronts that lie above one another, as wide as each other."""
+    wide = [front for front in fronts if _low(front)]
     return {one.piece for one in wide for other in wide if one is not other and _above(one, other)}
+
+
+def held_aside(front: Front) -> bool:
+    """Whether its grip is near one side, as that of a car's door below its window."""
+    return front.held is not None and abs(float(front.held[0])) >= _MIDDLE
 
 
 def _times(front: Front) -> float:
@@ -39,11 +44,6 @@ def _times(front: Front) -> float:
 
 def _low(front: Front) -> bool:
     return _times(front) >= _LOW
-
-
-def _held_aside(front: Front) -> bool:
-    """Whether its grip is near one side, as that of a car's door below its window."""
-    return front.held is not None and abs(float(front.held[0])) >= _MIDDLE
 
 
 def _above(one: Front, other: Front) -> bool:

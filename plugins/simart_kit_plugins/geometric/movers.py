@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from .contact import Contacts
-from .drawer_fronts import STRIP, like_drawer, stacked
+from .drawer_fronts import STRIP, held_aside, like_drawer, stacked
 from .fronts import OPEN, Front, find_fronts, thin
 from .sashes import passing, slides_over
 from .scene import FACINGS, Scene
@@ -84,7 +84,8 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     scored += [(_TWIN, front) for front in in_rows[main] if front.piece not in known]
     scored += [(_TWIN, front) for front in twins(scene, [front for _, front in scored], able)]
     tracks |= {front.piece for _, front in scored if _is_panel(front) and slides_over(scene, front)}
-    drawers = stacked([front for _, front in scored])
+    # On a skin, what seems a grip may be a patch of the panel, and tells nothing of drawers in a column.
+    drawers = stacked([front for _, front in scored if fused or not held_aside(front)])
     labels = dict.fromkeys(drawers, "drawer") | dict.fromkeys(tracks, "sliding_door")
     return _apart(scored, set(), labels)
 
