@@ -22,6 +22,7 @@ Motion = Callable[[float], FloatArray]
 POINTS = 600  # sampled on either surface
 BLOCKED = 0.03  # share of points that may pass through before the motion counts as blocked: modelling slop
 _DEEP = 0.003  # of the moving part's size: shallower crossings are surfaces that graze
+_SUNK = 6.0  # times that: what rests no deeper in a surface, and comes out of it, was modelled carelessly
 _MOST_HITS = 6  # faces that a point may meet in one step
 _OPPOSITE = -0.5  # cosine between faces that are the two sides of a board
 _STEP = 1e-6  # of the size
@@ -38,7 +39,8 @@ class Sweep:
         moving: (F, 3) vertex indices of the faces that move, F > 0.
         still: (G, 3) those of the faces that do not.
         seed: of the sampling.
-        holes: whether what stands in the other at rest has a hole there, modelled or not: rods in sleeves.
+        holes: whether what stands in the other at rest has a hole there, modelled or not: rods in sleeves,
+            and leaves that are sunk a little in a frame which closes nothing.
     """
 
     def __init__(
@@ -256,7 +258,8 @@ class _Paths:
         self._hit[inside], self._normal[inside] = hit[enters], normal[enters]
         self._fits[inside] = False
         if self._own is not None:
-            slides = enters & self._flat[going]
+            sunk = np.abs(np.einsum("ni,ni->n", hit - self._points[going], normal)) < _SUNK * self._deep
+            slides = enters & (self._flat[going] | ((sense > 0) & sunk))
             self._fits[going[slides]] = self._own.filled(hit[slides], way[going][slides], self._deep)
         length = np.maximum(np.linalg.norm(rest, axis=1, keepdims=True), 1e-30)
         start = start.copy()

@@ -202,6 +202,34 @@ class TestHoles:
         )
 
 
+class TestSunk:
+    """A leaf that reaches a hundredth of its width through the front of a frame which closes nothing."""
+
+    frame: ClassVar[FloatArray] = np.array(
+        [[[-1.0, 0, -1], [2, 0, -1], [2, 0, 2]], [[-1, 0, -1], [2, 0, 2], [-1, 0, 2]]]
+    )
+
+    def free(self, back: float, *, front: float = -0.03, holes: bool = True) -> float:
+        leaf: list[Bounds] = [((0.0, front, 0.0), (1.0, back, 1.0))]
+        return sweep_of(triangles(leaf), self.frame, holes=holes).free(along(0, -1, 0), 0.5, 50)
+
+    def test_it_leaves_the_frame(self) -> None:
+        assert self.free(0.01) == 0.5
+
+    def test_it_does_not_where_nothing_may_be_sunk(self) -> None:
+        assert self.free(0.01, holes=False) < 0.1
+
+    def test_what_stands_right_behind_the_frame_is_stopped(self) -> None:
+        assert self.free(0.03, front=0.005) < 0.1
+
+    def test_what_reaches_far_through_it_is_stopped(self) -> None:
+        assert 0.1 < self.free(0.2) < 0.3
+
+    def test_it_is_not_pushed_in(self) -> None:
+        leaf: list[Bounds] = [((0.0, -0.03, 0.0), (1.0, 0.01, 1.0))]
+        assert sweep_of(triangles(leaf), self.frame, holes=True).free(along(0, 1, 0), 0.5, 50) < 0.1
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_that_there_may_be_holes_never_stops_what_is_free_without(seed: int) -> None:
     """Boxes in boxes, some without a face, that turn about a line beside them and slide past each other."""
