@@ -125,3 +125,29 @@ def test_alike_wide_fronts_in_a_column_are_drawers_and_a_single_one_is_a_flap() 
         [*carcass((-0.3, 0.3), (-0.2, 0.2), (0.0, 0.25)), panel((-0.279, 0.279), -0.2, (0.021, 0.229))]
     )
     assert_hinge(single.joint("door"), (0.0, -0.19, 0.021), "x")
+
+
+class TestDeepDrawers:
+    """A low front above a deep one, as on a filing cabinet and below a fridge's doors."""
+
+    body = (
+        *carcass((-0.3, 0.3), (-0.2, 0.2), (0.0, 0.65)),
+        box((-0.28, 0.28), (-0.19, 0.19), (0.441, 0.459)),
+        panel((-0.279, 0.279), -0.2, (0.453, 0.629)),
+        panel((-0.279, 0.279), -0.2, (0.021, 0.447)),
+        bar(0.0, 0.54, -0.2, half=0.1, upright=False),
+    )
+
+    def test_one_with_a_bar_in_the_middle_of_its_upper_half_is_drawn_too(self) -> None:
+        grip = bar(0.0, 0.38, -0.2, half=0.1, upright=False)
+        result = found([*self.body, grip])
+        assert result.kinds == dict.fromkeys(("lower_drawer", "upper_drawer"), "prismatic")
+
+    def test_one_with_a_window_is_the_door_of_an_oven(self) -> None:
+        grip, window = bar(0.0, 0.38, -0.2, half=0.1, upright=False), panel((-0.2, 0.2), -0.201, (0.08, 0.34))
+        result = found([*self.body, grip, window])
+        assert result.kinds == {"drawer": "prismatic", "door": "revolute"}
+
+    def test_one_with_a_grip_at_its_lower_edge_is_a_flap(self) -> None:
+        grip = bar(0.0, 0.08, -0.2, half=0.1, upright=False)
+        assert found([*self.body, grip]).kinds == {"drawer": "prismatic", "door": "revolute"}

@@ -69,6 +69,17 @@ class TestSliding:
         for name, way in (("left_sliding_door", 1), ("right_sliding_door", -1)):
             np.testing.assert_allclose(result.joint(name).axis, [way, 0, 0], atol=1e-9)
 
+    def test_doors_of_a_wardrobe_do_before_its_body_without_a_frame(self) -> None:
+        body = carcass((-0.6, 0.6), (-0.3, 0.3), (0.0, 2.0))
+        doors = [
+            box((-0.598, 0.03), (-0.36, -0.34), (0.02, 1.98)),
+            box((-0.03, 0.598), (-0.33, -0.31), (0.02, 1.98)),
+        ]
+        result = found([*body, *doors])
+        assert result.kinds == {"left_sliding_door": "prismatic", "right_sliding_door": "prismatic"}
+        for name, way in (("left_sliding_door", 1), ("right_sliding_door", -1)):
+            np.testing.assert_allclose(result.joint(name).axis, [way, 0, 0], atol=1e-9)
+
     def test_of_two_above_each_other_the_lower_one_slides_up(self) -> None:
         lower = box((-0.595, 0.595), (-0.03, -0.005), (0.055, 1.02))
         upper = box((-0.595, 0.595), (0.005, 0.03), (0.98, 1.945))

@@ -7,9 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from .fronts import Front
+from .scene import FACINGS, Scene
 
 STRIP = 2.5  # so many times as wide as high a front is no flap
 _LOW = 1.6  # so many times as wide as high a drawer is
+_HIGH = 1.2  # the same of deep ones, as of filing cabinets, in a column
+_WINDOW = 0.3  # share of a front from which on what lies in it is a window
 _MIDDLE = 0.2  # of its width or height, how far from its middle the grip of a drawer is at most
 _EDGES = 0.05  # of its width by which the sides of drawers above one another may be out of line
 _LEVEL = 0.03  # diagonals between their edges, and half of what is between their planes
@@ -26,15 +29,26 @@ def like_drawer(front: Front) -> bool:
     return not held_aside(front) and (up < _MIDDLE or _times(front) > STRIP)
 
 
-def stacked(fronts: Sequence[Front]) -> set[int]:
-    """Pieces of wide fronts that lie above one another, as wide as each other."""
-    wide = [front for front in fronts if _low(front)]
+def stacked(scene: Scene, fronts: Sequence[Front]) -> set[int]:
+    """Pieces of wide fronts that lie above one another, as wide as each other; high ones tell by their grip."""
+    wide = [front for front in fronts if _low(front) or _drawn_out(scene, front)]
     return {one.piece for one in wide for other in wide if one is not other and _above(one, other)}
 
 
 def held_aside(front: Front) -> bool:
     """Whether its grip is near one side, as that of a car's door below its window."""
     return front.held is not None and abs(float(front.held[0])) >= _MIDDLE
+
+
+def _drawn_out(scene: Scene, front: Front) -> bool:
+    """Whether a front that is not quite low has its grip in the middle of its upper half, and no window.
+
+    With a window it is an oven's door.
+    """
+    if front.held is None or _times(front) < _HIGH or held_aside(front):
+        return False
+    sizes = [scene.boxes[inlay].turned(FACINGS[front.facing]).size[:2] for inlay in front.inlays]
+    return float(front.held[1]) > 0 and all(size.prod() < _WINDOW * front.area for size in sizes)
 
 
 def _times(front: Front) -> float:

@@ -22,6 +22,7 @@ LEAST_SHARE = 0.06  # of its side that a front without a handle takes
 SLAT = 8.0  # times as long as wide, a panel without a handle is a slat
 TALL = 0.8  # share of the object's height above which a leaf is for passing through
 MOST = 0.4  # share of its side that the leaf in a doorway takes
+_HALF_SIDE = 0.3  # share of its side that a leaf takes which passes before the body, and not within a frame
 _ALL = 0.99  # share of its side from which on a front leaves nothing else of it
 _SHEET = 1e-4  # what is thinner has no back of its own
 _MOST_OPEN = 0.5  # share of its side that a drawer which stands open takes: larger boxes hold the rest
@@ -66,7 +67,7 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
         fronts["top"] = []  # it lies on what these open: a worktop, with taps on it
     every = [front for facing in FACINGS for front in fronts[facing]]
     able = [] if fused else [front for front in every if _is_panel(front)]
-    tracks = passing(scene, [front for front in able if front.framed >= 0.5])
+    tracks = passing(scene, [front for front in able if front.framed >= 0.5 or _hides_much(front)])
     scored: list[tuple[float, Front]] = []
     for front in every:
         score = max(_score(front, front.facing == main, fused), 0.8 * (front.piece in tracks))
@@ -85,7 +86,7 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     scored += [(_TWIN, front) for front in twins(scene, [front for _, front in scored], able)]
     tracks |= {front.piece for _, front in scored if _is_panel(front) and slides_over(scene, front)}
     # On a skin, what seems a grip may be a patch of the panel, and tells nothing of drawers in a column.
-    drawers = stacked([front for _, front in scored if fused or not held_aside(front)])
+    drawers = stacked(scene, [front for _, front in scored if fused or not held_aside(front)])
     labels = dict.fromkeys(drawers, "drawer") | dict.fromkeys(tracks, "sliding_door")
     return _apart(scored, set(), labels)
 
@@ -244,6 +245,10 @@ def _like_slat(front: Front) -> bool:
 
 def _is_panel(front: Front) -> bool:
     return front.flat >= FLAT and thin(front.box)
+
+
+def _hides_much(front: Front) -> bool:
+    return front.share >= _HALF_SIDE and front.backed >= ENCLOSED
 
 
 def _closes_cavity(front: Front) -> bool:
