@@ -48,8 +48,8 @@ class Nano(Segmenter):
             ge=0,
             le=1,
             description="Parts less sure than this stay with the body; a quarter of it is enough in an "
-            "object that is recognised, half in one that is read much alike from all sides, is made as those "
-            "that were trained on, or has nothing that `geometric` finds.",
+            "object that is recognised, half in one that is read much alike from all sides or is made as "
+            "those that were trained on, five eighths in one in which `geometric` finds nothing.",
         )
         votes: int = Field(
             default=4,
