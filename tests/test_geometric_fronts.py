@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from .furniture import BOARD, Box, bar, box, carcass, legs, panel
+from .furniture import BOARD, Box, bar, box, carcass, drawer, legs, panel
 from .test_geometric import assert_hinge, found
 
 WIDE = (-0.5 + BOARD + 0.003, 0.5 - BOARD - 0.003)
@@ -65,6 +65,14 @@ def test_the_pedestal_that_bears_the_drawers_of_a_desk_is_none() -> None:
     assert result.kinds == dict.fromkeys(("drawer_1", "drawer_2", "drawer_3"), "prismatic")
     moving = np.concatenate([result.faces(name) for name in result.kinds])
     assert moving.min() >= 36
+
+
+@pytest.mark.parametrize(("half", "drawers"), [(0.49, 0), (0.35, 1)])
+def test_the_apron_of_a_table_is_no_drawer_and_one_between_its_legs_is(half: float, drawers: int) -> None:
+    top, mirror = box((-0.5, 0.5), (-0.3, 0.3), (0.7, 0.72)), box((-0.45, 0.45), (0.27, 0.29), (0.73, 1.6))
+    stands = box((-0.02, 0.02), (0.27, 0.29), (0.72, 0.73))
+    apron = drawer((-half, half), -0.29, 0.26, (0.58, 0.699))
+    assert list(found([top, stands, mirror, *legs(1.0, 0.6, 0.699), *apron]).kinds) == ["drawer"] * drawers
 
 
 class TestStrips:

@@ -28,6 +28,7 @@ _SHEET = 1e-4  # what is thinner has no back of its own
 _MOST_OPEN = 0.5  # share of its side that a drawer which stands open takes: larger boxes hold the rest
 _SMALL = 0.15  # share of its side that a drawer takes which has neither a back behind it nor walls all around
 _DOORWAY = 0.7  # share of rays to the sides that meet the frame behind a leaf: there is no sill
+_BETWEEN = 0.9  # share of the width of its side that such a drawer takes: the apron of a table takes more
 _ROW = 3  # so many alike are a row
 _CONTROLS = 4  # so many things on a strip are controls
 _ACROSS = 0.85  # share of the width of its side that a strip takes which bears controls
@@ -218,7 +219,8 @@ def _opens_by_handle(front: Front) -> bool:
 
 def _in_a_body(front: Front) -> bool:
     """Whether something is behind a box, or all around it, as around none that carries the rest."""
-    return front.backed >= OPEN or front.walled >= ENCLOSED or front.share < _SMALL
+    small = front.share < min(_SMALL, _BETWEEN * front.tall)
+    return front.backed >= OPEN or front.walled >= ENCLOSED or small
 
 
 def _in_doorway(front: Front) -> bool:
