@@ -21,7 +21,7 @@ def part(piece, certainty, kind="prismatic"):
     )
 
 
-def said(*parts, discord=0.0015, novelty=3.0):
+def said(*parts, discord=0.0015, novelty=1.5):
     moves = np.full(3, 0.9)
     return Prediction(parts, (), np.zeros(3, int), moves, "desk", discord, novelty, {}, (1.0, 1.0))
 
@@ -51,6 +51,13 @@ def test_five_eighths_are_enough_where_geometry_finds_nothing():
     assert kept(new, alone=True, skin=True) == []
     assert kept(replace(new, discord=float("inf")), alone=True) == []  # seen from one side
     assert kept(replace(new, novelty=1.4), alone=True) == []  # like nothing that it knows
+
+
+@pytest.mark.parametrize("discord", [0.0, 0.0015])
+def test_all_is_asked_in_what_is_like_nothing_that_was_made(discord):
+    alien = said(part(DRAWER, 0.81), part(LID, 0.79), discord=discord, novelty=1.8)
+    assert kept(alien) == [DRAWER]
+    assert kept(replace(alien, novelty=float("inf"))) == [DRAWER, LID]  # of weights without statistics
 
 
 def test_all_is_asked_on_a_skin():

@@ -21,6 +21,9 @@ _MUCH_ALIKE, _NO_NEWER, _AT_ODDS = 0.002, 1.15, 0.02
 # What is newer is too strange for half of the sureness, though nothing else is found: most plants, plugs and
 # seats of catalogues that would move so do not.
 _STRANGE = 1.35
+# What is newer than this is like nothing that was made, and read alike from all sides for want of any hint: wall
+# sockets as clocks.
+_ALIEN = 1.75
 # Where geometry finds as many parts, its borders are better unless the sides differ by no more.
 _HARDLY = 0.003
 # What is less likely than this to move is sure to stand still, in what is read much alike from all sides.
@@ -36,6 +39,8 @@ def enough(said: Prediction, least: float, skin: bool, alone: bool) -> float:
         skin: whether it is one closed skin; of these the network knows too little to be trusted with less.
         alone: whether geometry was asked and finds nothing; else what is not sure would stand still.
     """
+    if _ALIEN < said.novelty < float("inf"):  # without statistics it is infinite
+        return least
     if said.recognised:
         return _KNOWN * least
     familiar = said.discord <= (_AT_ODDS if said.novelty <= _NO_NEWER else _MUCH_ALIKE)
