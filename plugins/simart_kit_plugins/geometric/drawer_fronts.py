@@ -30,7 +30,7 @@ def like_drawer(front: Front) -> bool:
 
 
 def stacked(scene: Scene, fronts: Sequence[Front]) -> set[int]:
-    """Pieces of wide fronts that lie above one another, as wide as each other; high ones tell by their grip."""
+    """Pieces of wide fronts that lie above one another, equally wide; the grip tells of high ones."""
     wide = [front for front in fronts if _low(front) or _drawn_out(scene, front)]
     return {one.piece for one in wide for other in wide if one is not other and _above(one, other)}
 

@@ -13,16 +13,16 @@ from .proposals import Proposal, only
 
 # Shares of the sureness asked for that are enough in an object that is recognised, and in a familiar one.
 _KNOWN, _HALF = 1 / 4, 1 / 2
-# The same where nothing else is found: of what is less sure in catalogues, five of six parts are wrong, most of
-# them on what stands still, and of what is surer two of five are right.
+# The same where nothing else is found: of what is less sure in catalogues, five of six parts are wrong, most
+# of them on what stands still, and of what is surer two of five are right.
 _ALONE = 5 / 8
 # Familiar is what is read much alike from all sides, or is no newer than so if these are not quite at odds.
 _MUCH_ALIKE, _NO_NEWER, _AT_ODDS = 0.002, 1.15, 0.02
 # What is newer is too strange for half of the sureness, though nothing else is found: most plants, plugs and
 # seats of catalogues that would move so do not.
 _STRANGE = 1.35
-# What is newer than this is like nothing that was made, and read alike from all sides for want of any hint: wall
-# sockets as clocks.
+# What is newer than this is like nothing that was made, and is read alike from all sides for want of hints:
+# wall sockets, as clocks.
 _ALIEN = 1.75
 # Where geometry finds as many parts, its borders are better unless the sides differ by no more.
 _HARDLY = 0.003
