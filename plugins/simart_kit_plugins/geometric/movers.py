@@ -250,6 +250,7 @@ def _is_panel(front: Front) -> bool:
 
 
 def _hides_much(front: Front) -> bool:
+    """Whether it takes so much of its side, with something behind, that it needs no frame to slide in."""
     return front.share >= _HALF_SIDE and front.backed >= ENCLOSED
 
 
