@@ -251,8 +251,10 @@ def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int
     if spindles:
         on.update(i for i in found if meet(contacts, boxes, i, piece))
 
+    held = set(found)
+
     def joined(i: int, j: int) -> bool:
-        return contacts.within(i, j, TOUCH) or (j in found and meet(contacts, boxes, i, j))
+        return contacts.within(i, j, TOUCH) or (j in held and meet(contacts, boxes, i, j))
 
     on = hanging_on(on, found, joined)
     return tuple(i for i in found if i in on)
@@ -298,6 +300,8 @@ def _glazing_bar(box: Box, panel: Box) -> bool:
 
 def meet(contacts: Contacts, boxes: Sequence[Box], one: int, other: int) -> bool:
     """Whether two pieces touch, or one is stuck into the other so deep that no corner is near its skin."""
+    if not contacts.beside(one, other):
+        return False
     return boxes[one].overlap(boxes[other], -TOUCH) or contacts.within(one, other, TOUCH)
 
 
