@@ -10,7 +10,7 @@ from pydantic import Field
 
 from ..arrays import FloatArray
 from ..asset import MassProperties
-from ..hulls import hull_of, volume
+from ..hulls import hull_corners
 from ..physics import MIN_MASS
 from ..stages import Check
 from ..stages import Options as StageOptions
@@ -107,8 +107,8 @@ def _outside(mass: MassProperties, points: FloatArray) -> bool:
 
 def _evidence(mass: MassProperties, points: FloatArray, area: float) -> dict[str, Any]:
     principal = np.linalg.eigvalsh(np.array(mass.inertia))
-    hull = hull_of(points) if len(points) > 3 else None
-    room = (volume(hull) if hull else 0.0) + _SKIN * area
+    hull = hull_corners(points) if len(points) > 3 else None
+    room = (hull[1] if hull else 0.0) + _SKIN * area
     return {
         "mass": mass.mass,
         "principal_inertia": principal.tolist(),
