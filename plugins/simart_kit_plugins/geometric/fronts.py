@@ -251,10 +251,10 @@ def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int
     if spindles:
         on.update(i for i in found if meet(contacts, boxes, i, piece))
 
-    held = set(found)
+    standing_out = set(found)
 
     def joined(i: int, j: int) -> bool:
-        return contacts.within(i, j, TOUCH) or (j in held and meet(contacts, boxes, i, j))
+        return contacts.within(i, j, TOUCH) or (j in standing_out and meet(contacts, boxes, i, j))
 
     on = hanging_on(on, found, joined)
     return tuple(i for i in found if i in on)

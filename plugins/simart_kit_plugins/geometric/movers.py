@@ -22,7 +22,7 @@ LEAST_SHARE = 0.06  # of its side that a front without a handle takes
 SLAT = 8.0  # times as long as wide, a panel without a handle is a slat
 TALL = 0.8  # share of the object's height above which a leaf is for passing through
 MOST = 0.4  # share of its side that the leaf in a doorway takes
-_HALF_SIDE = 0.3  # share of its side that a leaf takes which passes before the body, and not within a frame
+_LEAF = 0.3  # share of its side that a leaf takes which passes before the body, and not within a frame
 _ALL = 0.99  # share of its side from which on a front leaves nothing else of it
 _SHEET = 1e-4  # what is thinner has no back of its own
 _MOST_OPEN = 0.5  # share of its side that a drawer which stands open takes: larger boxes hold the rest
@@ -251,7 +251,7 @@ def _is_panel(front: Front) -> bool:
 
 def _hides_much(front: Front) -> bool:
     """Whether it takes so much of its side, with something behind, that it needs no frame to slide in."""
-    return front.share >= _HALF_SIDE and front.backed >= ENCLOSED
+    return front.share >= _LEAF and front.backed >= ENCLOSED
 
 
 def _closes_cavity(front: Front) -> bool:
