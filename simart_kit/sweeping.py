@@ -259,8 +259,8 @@ class _Paths:
         self._fits[inside] = False
         if self._own is not None:
             sunk = np.abs(np.einsum("ni,ni->n", hit - self._points[going], normal)) < _SUNK * self._deep
-            slides = enters & (self._flat[going] | ((sense > 0) & sunk))
-            self._fits[going[slides]] = self._own.filled(hit[slides], way[going][slides], self._deep)
+            may_fit = enters & (self._flat[going] | ((sense > 0) & sunk))
+            self._fits[going[may_fit]] = self._own.filled(hit[may_fit], way[going][may_fit], self._deep)
         length = np.maximum(np.linalg.norm(rest, axis=1, keepdims=True), 1e-30)
         start = start.copy()
         start[going] = hit + rest * np.minimum(target.step / length, 1.0)

@@ -43,12 +43,14 @@ def enough(said: Prediction, least: float, skin: bool, alone: bool) -> float:
         return least
     if said.recognised:
         return _KNOWN * least
-    familiar = said.discord <= (_AT_ODDS if said.novelty <= _NO_NEWER else _MUCH_ALIKE)
-    # What is seen from one side alone, as of many pieces, is sure of nothing: no other side could object.
-    alone = alone and said.discord < float("inf") and said.novelty <= _STRANGE
     if skin:
         return least
-    return _HALF * least if familiar else _ALONE * least if alone else least
+    if said.discord <= (_AT_ODDS if said.novelty <= _NO_NEWER else _MUCH_ALIKE):
+        return _HALF * least
+    # What is seen from one side alone, as of many pieces, is sure of nothing: no other side could object.
+    if alone and said.discord < float("inf") and said.novelty <= _STRANGE:
+        return _ALONE * least
+    return least
 
 
 def settled(said: Prediction, least: float) -> Prediction:
