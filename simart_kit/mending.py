@@ -9,6 +9,9 @@ import numpy as np
 from .hulls import hull_corners, outermost
 from .pieces import Piece
 
+Joins = dict[tuple[int, int], Piece]
+"""What two pieces would be together, by their ordered keys."""
+
 _TOUCHING = 1e-6  # [m]
 _MANY_CORNERS = 128  # of a hull that is looked at again and again
 _MOST_JOINS = 24  # pieces that each may be joined with as it touches them, those that it grows least by
@@ -25,9 +28,9 @@ def mended(pieces: Sequence[Piece], most: int, tight: float, least: float) -> li
         least: and what it may hold besides it at most [m^3].
     """
     left = dict(enumerate(pieces))
-    joins: dict[tuple[int, int], Piece] = {}
+    joins: Joins = {}
     for key in left:
-        joins |= _joins(left, key, _NEAR if len(left) > most else 0)
+        joins |= _joins(left, key, _NEAR if len(left) > most else 0, joins)
     while len(left) > 1:
         crowded = len(left) > most
         wasted = [
@@ -41,12 +44,12 @@ def mended(pieces: Sequence[Piece], most: int, tight: float, least: float) -> li
         left[i] = joins[i, j]
         del left[j]
         joins = {pair: joined for pair, joined in joins.items() if not {i, j} & set(pair)}
-        joins |= _joins(left, i, _NEAR if len(left) > most else 0)
+        joins |= _joins(left, i, _NEAR if len(left) > most else 0, joins)
     return [left[key] for key in sorted(left)]
 
 
-def _joins(pieces: Mapping[int, Piece], key: int, near: int) -> dict[tuple[int, int], Piece]:
-    """One piece with each that it touches, and with so many that lie near, by the two ordered keys."""
+def _joins(pieces: Mapping[int, Piece], key: int, near: int, known: Joins) -> Joins:
+    """One piece with each that it touches, and with so many that lie near, but those that are known."""
     others = [other for other in pieces if other != key]
     if not others:
         return {}
@@ -58,7 +61,7 @@ def _joins(pieces: Mapping[int, Piece], key: int, near: int) -> dict[tuple[int, 
     order = np.argsort(growth, kind="stable")
     chosen = {*order[touching[order]][:_MOST_JOINS].tolist(), *order[:near].tolist()}
     pairs = [(min(key, others[i]), max(key, others[i])) for i in sorted(chosen)]
-    return {(i, j): _together(pieces[i], pieces[j]) for i, j in pairs}
+    return {(i, j): _together(pieces[i], pieces[j]) for i, j in pairs if (i, j) not in known}
 
 
 def _together(one: Piece, two: Piece) -> Piece:
