@@ -8,8 +8,10 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray, IntArray, frozen_floats, frozen_ints
 from simart_kit.asset import ConvexMesh
+from simart_kit.bounds import bounds_of
+from simart_kit.kept import kept
 from simart_kit.surfaces import Surface
-from simart_kit.triangles import areas, crosses
+from simart_kit.triangles import areas, crosses, lengths
 
 # MuJoCo refuses meshes of less than 1e-15 m^3; MIN_AREA is a speck of 0.03 mm, too small to see or to back.
 MIN_VOLUME = 1e-14
@@ -20,11 +22,13 @@ THICKNESS = 1e-4
 """How far behind a flat surface its back is, as a fraction of the surface's diagonal."""
 
 
+@kept
 def is_speck(surface: Surface) -> bool:
     """Whether a surface is too small to draw."""
     return float(areas(surface.vertices[surface.faces]).sum()) < MIN_AREA
 
 
+@kept
 def backed(surface: Surface) -> Surface:
     """The surface itself, or with a back where it is flat: its faces turned round, a little behind it."""
     step = _step_back(surface.vertices, surface.faces)
@@ -55,14 +59,16 @@ def _two_sided(faces: IntArray, shift: int) -> IntArray:
 def _step_back(vertices: FloatArray, faces: IntArray) -> FloatArray | None:
     """(3,) way to the back of a surface [m]; None when it has volume."""
     corners = vertices[faces]
-    cross, area = crosses(corners), areas(corners)
+    cross = crosses(corners)
+    area = 0.5 * lengths(cross)
     total = max(float(area.sum()), MIN_AREA)
     centroids = corners.mean(axis=1)
     middle = area @ centroids / total
     # The volume of the pyramids from the middle to every face, as MuJoCo measures open meshes.
     volume = np.abs(np.einsum("ij,ij->i", cross, centroids - middle)).sum() / 6
-    diagonal = float(np.linalg.norm(np.ptp(corners.reshape(-1, 3), axis=0)))
-    reach = max(diagonal, float(np.abs(corners).max()))
+    ends = np.array(bounds_of(corners.reshape(-1, 3)))
+    diagonal = float(np.linalg.norm(ends[1] - ends[0]))
+    reach = max(diagonal, float(np.abs(ends).max()))
     if volume > max(MIN_VOLUME, FLAT * reach * area.sum()):
         return None
     normal = cross[area.argmax()] / max(2 * area.max(), MIN_AREA)
