@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import zipfile
 import zlib
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -43,7 +44,7 @@ def save_asset(asset: Asset, folder: Path) -> Path:
         for number, shape in enumerate(part.collision):
             arrays[f"collision_{index}_{number}_vertices"] = shape.vertices
             arrays[f"collision_{index}_{number}_faces"] = shape.faces
-    np.savez_compressed(folder / ARRAYS_FILE, allow_pickle=False, **arrays)
+    _write_arrays(folder / ARRAYS_FILE, arrays)
     text = json.dumps(table.model_dump(mode="json", by_alias=True), indent=1, allow_nan=False)
     (folder / ASSET_FILE).write_text(text + "\n", encoding="utf-8")
     return folder / ASSET_FILE
@@ -85,10 +86,10 @@ def save_value(value: object, folder: Path) -> None:
         return
     folder.mkdir(parents=True, exist_ok=True)
     if isinstance(value, Mesh):
-        np.savez_compressed(folder / "mesh.npz", allow_pickle=False, **_mesh_arrays(value))
+        _write_arrays(folder / "mesh.npz", _mesh_arrays(value))
     elif isinstance(value, Segmentation):
         names = np.array([p.name for p in value.parts])
-        np.savez_compressed(folder / "segmentation.npz", face_part=value.face_part, parts=names)
+        _write_arrays(folder / "segmentation.npz", {"face_part": value.face_part, "parts": names})
         if value.mesh is not None:
             save_value(value.mesh, folder)
 
@@ -106,6 +107,14 @@ def _mesh_arrays(mesh: Mesh) -> dict[str, Any]:
             if image is not None:
                 arrays[f"material_{index}_{name}"] = np.frombuffer(image.png, np.uint8)
     return arrays
+
+
+def _write_arrays(path: Path, arrays: Mapping[str, Any]) -> None:
+    """As `numpy.savez_compressed`, in a third of its time: files are some percent larger."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        for name, array in arrays.items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+                np.lib.format.write_array(member, np.asarray(array), allow_pickle=False)
 
 
 def _read_arrays(path: Path) -> dict[str, Any]:
