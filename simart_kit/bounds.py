@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .arrays import FloatArray, IntArray
+from .topology import stable_order
 
 
 def bounds_of(points: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -16,6 +17,16 @@ def triangle_bounds(triangles: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Lower and upper corners (F, 3) of each of the triangles (F, 3, 3)."""
     a, b, c = triangles.transpose(1, 0, 2)
     return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+
+
+def bounds_by(triangles: FloatArray, label: IntArray) -> FloatArray:
+    """(L, 2, 3) lower and upper corner of the triangles (F, 3, 3) of each label; (F,) has each of 0..L-1."""
+    order, ordered = stable_order(label.astype(np.int64))
+    starts = np.flatnonzero(np.diff(ordered, prepend=-1))
+    lower, upper = triangle_bounds(triangles)
+    lowest = np.stack([np.minimum.reduceat(c.take(order), starts) for c in lower.T], axis=1)
+    highest = np.stack([np.maximum.reduceat(c.take(order), starts) for c in upper.T], axis=1)
+    return np.stack([lowest, highest], axis=1)
 
 
 def box_corners(bounds: FloatArray) -> FloatArray:

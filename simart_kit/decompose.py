@@ -22,6 +22,7 @@ from .mending import mended
 from .pieces import Piece, hulled
 from .shells import find_shells
 from .straightening import straightened
+from .topology import occurring
 from .triangles import unit_normals
 
 if TYPE_CHECKING:
@@ -77,7 +78,7 @@ class Surface:
     @cached_property
     def whole(self) -> Piece:
         """All of it, filled."""
-        return hulled(self.vertices[np.unique(self.faces)])
+        return hulled(self.vertices[occurring(self.faces)])
 
     @cached_property
     def pieces(self) -> list[Piece]:
@@ -146,7 +147,7 @@ def decompose_by_tool(vertices: FloatArray, faces: IntArray, budget: Budget) -> 
         found = run_tool(budget.tool, vertices, faces, budget.shapes, budget.vertices, budget.tool_seconds)
     except DecompositionError as error:
         seconds = time.monotonic() - started
-        hull = convex_hull(vertices[np.unique(faces)], budget.vertices)
+        hull = convex_hull(vertices[occurring(faces)], budget.vertices)
         return Decomposition((hull,), str(error), seconds)
     shapes = tuple(convex_hull(points, budget.vertices) for points in found)
     return Decomposition(shapes, "", time.monotonic() - started)

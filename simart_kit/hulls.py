@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 
 import numpy as np
@@ -49,8 +50,8 @@ def hull_corners(points: FloatArray) -> tuple[FloatArray, float] | None:
 
     body = manifold3d.Manifold.hull_points(points)
     found = float(body.volume())
-    size = float(np.linalg.norm(np.ptp(points, axis=0)))
-    if found <= _FLAT * size**3:
+    box = body.bounding_box()
+    if found <= _FLAT * math.dist(box[:3], box[3:]) ** 3:
         return None
     return np.asarray(body.to_mesh64().vert_properties[:, :3]), found
 

@@ -20,6 +20,7 @@ from .arrays import (
     units,
 )
 from .errors import BadInputError
+from .topology import occurring
 from .triangles import areas_and_normals
 
 UpAxis = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
@@ -201,7 +202,7 @@ class Mesh:
 
     def points_of(self, faces: BoolArray) -> FloatArray:
         """(N, 3) the vertices that the faces which (F,) marks use, each once."""
-        return self.vertices[np.unique(self.faces[faces])]
+        return self.vertices[occurring(self.faces[faces])]
 
     def transformed(self, new_from_old: FloatArray) -> Mesh:
         """The mesh moved by a (4, 4) similarity; normals are turned with it."""
@@ -246,7 +247,7 @@ def canonical(
     factor = metres_per_unit or mesh.metres_per_unit or 1.0
     asset_from_source = np.eye(4)
     asset_from_source[:3, :3] = rotation * factor
-    corners = mesh.vertices[np.unique(mesh.faces)] @ asset_from_source[:3, :3].T
+    corners = mesh.vertices[occurring(mesh.faces)] @ asset_from_source[:3, :3].T
     lower, upper = corners.min(axis=0), corners.max(axis=0)
     asset_from_source[:3, 3] = -(lower + upper) / 2
     asset_from_source[2, 3] = -lower[2]

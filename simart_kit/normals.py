@@ -8,7 +8,7 @@ import numpy as np
 
 from .arrays import UP, FloatArray, IntArray, sums_by, units
 from .mesh import Mesh
-from .topology import weld
+from .topology import unique_rows, weld
 
 CREASE_ANGLE = np.deg2rad(35.0)
 _MOST_FACES = 256  # around a position; neighbours in a fuller fan differ too little for smoothing to show
@@ -27,8 +27,8 @@ def with_normals(mesh: Mesh, crease: float = CREASE_ANGLE) -> Mesh:
     normals = units(_corner_sums(mesh, crease), otherwise=UP)  # a face without area has no better one
     corners = mesh.faces.ravel().astype(np.int64)
     # Corners of one vertex that agree to 1e-3 share it again: a number for each vertex and rounded normal.
-    rounded = np.round(normals * 1000).astype(np.int64) @ [2001**2, 2001, 1]
-    _, first, vertex = np.unique(corners * 2001**3 + rounded, return_index=True, return_inverse=True)
+    rounded = np.round(normals * 1000).astype(np.int64) @ np.array([2001**2, 2001, 1])
+    first, vertex = unique_rows((corners * 2001**3 + rounded)[:, None])
     return replace(mesh.on_vertices(corners[first], vertex.reshape(-1, 3)), normals=normals[first])
 
 

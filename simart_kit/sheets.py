@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from .arrays import FloatArray, IntArray, sums_by, units
-from .bounds import bounds_of
+from .bounds import bounds_by
 from .grouping import gathered
 from .pieces import Piece, hulled, piece_of, solid_body
 from .rims import rim
 from .rough_sheets import walls
-from .topology import connected, neighbours, stable_order, without_gaps
+from .topology import connected, neighbours, occurring, stable_order, without_gaps
 from .triangles import areas, crosses, unit_normals
 
 SHEET = 0.004
@@ -42,16 +42,16 @@ def boards(vertices: FloatArray, faces: IntArray, middle: FloatArray, most: int)
         return found
     patch, triangles = _flat_patches(vertices, faces), vertices[faces]
     inward, area = _inwards(triangles, patch, middle), areas(triangles)
+    looks = np.asarray(inward.any(axis=1))
     order, _ = stable_order(patch.astype(np.int64))
     split = np.split(order, np.cumsum(np.bincount(patch))[:-1])
-    boxes = np.array([bounds_of(triangles[some].reshape(-1, 3)) for some in split])
-    for group in gathered(boxes, most, most // 2):
-        some = np.concatenate([split[label] for label in group if inward[label].any()] or [order[:0]])
+    for group in gathered(bounds_by(triangles, patch), most, most // 2):
+        some = np.concatenate([split[label] for label in group if looks[label]] or [order[:0]])
         if len(group) > 1 and len(some):
             found.append(_shared(triangles[some], inward[patch[some]], float(area[some].sum())))
         elif len(some):
             found.append(_board(vertices, faces[some], inward[group[0]]))
-    return found or [hulled(vertices[np.unique(faces)])]
+    return found or [hulled(vertices[occurring(faces)])]
 
 
 def _inwards(triangles: FloatArray, patch: IntArray, middle: FloatArray) -> FloatArray:

@@ -57,7 +57,9 @@ class Shells:
 
     def points(self) -> list[FloatArray]:
         """(N, 3) vertices of each shell [m]."""
-        pairs = np.unique(self.face_shell[:, None].astype(np.int64) * len(self.vertices) + self.faces)
+        corners = self.face_shell[:, None].astype(np.int64) * len(self.vertices) + self.faces
+        pairs = np.sort(corners, axis=None)
+        pairs = pairs[np.diff(pairs, prepend=-1) > 0]
         shell, vertex = np.divmod(pairs, max(len(self.vertices), 1))
         return np.split(self.vertices[vertex], np.searchsorted(shell, np.arange(1, self.count)))
 

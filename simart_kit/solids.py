@@ -13,6 +13,7 @@ from .hulls import hull_of
 from .materials import Build
 from .moments import moved, sheet_moments, solid_moments, summed
 from .shells import Shells, find_shells
+from .topology import occurring
 from .triangles import unit_normals
 
 THICKNESS = 0.01  # [m] of a board of no material in particular
@@ -71,7 +72,7 @@ def _bounded(shells: Shells, moments: FloatArray, text: str) -> tuple[FloatArray
     if count < 2:
         return moments, text
     closed = shells.closed[shells.face_shell]
-    hull = hull_of(shells.vertices[np.unique(shells.faces[closed])])
+    hull = hull_of(shells.vertices[occurring(shells.faces[closed])])
     if hull is None:
         return moments, text
     most = np.asarray(solid_moments(hull.vertices[hull.faces]).sum(axis=0))
@@ -138,7 +139,7 @@ def _open(shells: Shells, thickness: float) -> tuple[FloatArray, str]:
             hulled.append(i)
     total = moments[ids].sum(axis=0)
     common = (
-        _smaller_hull(shells.vertices[np.unique(shells.faces[faces])], total[3, 3]) if len(ids) > 1 else None
+        _smaller_hull(shells.vertices[occurring(shells.faces[faces])], total[3, 3]) if len(ids) > 1 else None
     )
     if common is not None:
         return common, f"convex hull of {len(ids)} open pieces"

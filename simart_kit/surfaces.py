@@ -13,6 +13,7 @@ from .kept import kept
 from .kinematics import rest_origin
 from .mesh import Image, Mesh, VisualMaterial
 from .normals import with_normals
+from .topology import without_gaps
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +69,7 @@ def asset_surfaces(asset: Asset) -> Mapping[str, tuple[Surface, ...]]:
 
 
 def _cut(mesh: Mesh, part: str, index: int, face_ids: IntArray, origin: FloatArray) -> Surface:
-    used, faces = np.unique(mesh.faces[face_ids], return_inverse=True)
+    used, faces = without_gaps(mesh.faces[face_ids])
     assert mesh.normals is not None
     return Surface(
         part=part,
@@ -78,6 +79,6 @@ def _cut(mesh: Mesh, part: str, index: int, face_ids: IntArray, origin: FloatArr
         normals=frozen_floats(mesh.normals[used]),
         uv=None if mesh.uv is None else frozen_floats(mesh.uv[used]),
         colors=None if mesh.colors is None else frozen_bytes(mesh.colors[used]),
-        faces=frozen_ints(faces.reshape(-1, 3)),
+        faces=frozen_ints(faces),
         source_faces=frozen_ints(face_ids),
     )

@@ -206,15 +206,26 @@ def _ranks(labels: IntArray, count: int) -> IntArray:
     return rank
 
 
-def without_gaps(ids: IntArray) -> tuple[IntArray, IntArray]:
-    """The ids 0.. that occur, ascending, and for each of `ids`, of any shape, which of them it is."""
+def occurring(ids: IntArray) -> IntArray:
+    """The ids 0.. that occur among `ids`, of any shape, ascending; many times as fast as `numpy.unique`."""
     highest = int(ids.max(initial=-1))
     if highest > 2 * ids.size:
-        used, which = np.unique(ids, return_inverse=True)
-        return used, which.reshape(ids.shape)
+        return np.unique(ids)
     occurs = np.zeros(highest + 1, dtype=np.bool_)
     occurs[ids] = True
-    return np.flatnonzero(occurs), ids if occurs.all() else (np.cumsum(occurs) - 1)[ids]
+    return np.flatnonzero(occurs)
+
+
+def without_gaps(ids: IntArray) -> tuple[IntArray, IntArray]:
+    """The ids 0.. that occur, ascending, and for each of `ids`, of any shape, which of them it is."""
+    used = occurring(ids)
+    if not len(used) or used[-1] < len(used):
+        return used, ids
+    if used[-1] > 2 * ids.size:
+        return used, np.searchsorted(used, ids)
+    which = np.zeros(int(used[-1]) + 1, dtype=np.int64)
+    which[used] = np.arange(len(used))
+    return used, which[ids]
 
 
 def connected(count: int, one: IntArray, two: IntArray) -> IntArray:

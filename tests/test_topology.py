@@ -12,10 +12,12 @@ from simart_kit.topology import (
     edges,
     half_edges,
     neighbours,
+    occurring,
     shared_by_two,
     stable_order,
     touching,
     unique_rows,
+    without_gaps,
 )
 
 # Two triangles that share an edge, one that meets them in a corner, one alone.
@@ -32,6 +34,16 @@ def test_unique_rows_are_those_of_numpy(rows: IntArray) -> None:
     np.testing.assert_array_equal(rows[first], expected)
     np.testing.assert_array_equal(first, expected_first)
     np.testing.assert_array_equal(ids, expected_ids.reshape(-1))
+
+
+@pytest.mark.parametrize("ids", [[], [0], [2, 0, 2, 1], [3, 1, 3], [[0, 7], [7, 1]], [900, 3, 900]], ids=str)
+def test_ids_that_occur_are_those_of_numpy(ids):
+    given = np.array(ids, dtype=np.int64)
+    expected, which = np.unique(given, return_inverse=True)
+    np.testing.assert_array_equal(occurring(given), expected)
+    used, found = without_gaps(given)
+    np.testing.assert_array_equal(used, expected)
+    np.testing.assert_array_equal(found, which.reshape(given.shape))
 
 
 def test_an_edge_has_one_id_whichever_way_it_is_walked() -> None:

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from simart_kit.arrays import FloatArray, IntArray
-from simart_kit.bounds import bounds_of, triangle_bounds
+from simart_kit.bounds import bounds_by, bounds_of
 from simart_kit.mesh import Mesh
 from simart_kit.rays import Rays
 
@@ -146,12 +146,7 @@ class Scene:
     @cached_property
     def bounds(self) -> FloatArray:
         """(count, 2, 3) lower and upper corner of each piece."""
-        lower = np.full((self.count, 3), np.inf)
-        upper = np.full((self.count, 3), -np.inf)
-        lows, highs = triangle_bounds(self.triangles)
-        np.minimum.at(lower, self.labels, lows)
-        np.maximum.at(upper, self.labels, highs)
-        return np.stack([lower, upper], axis=1)
+        return bounds_by(self.triangles, self.labels)
 
     @cached_property
     def boxes(self) -> tuple[Box, ...]:

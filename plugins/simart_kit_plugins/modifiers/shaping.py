@@ -12,6 +12,7 @@ from simart_kit.beside import Beside
 from simart_kit.decompose import Budget, Decomposition, Surface, decompose_by_tool, decompose_surface
 from simart_kit.fitting import aligned_box
 from simart_kit.hulls import MIN_THICKNESS, convex_hull
+from simart_kit.topology import occurring
 
 Mode = Literal["auto", "decompose", "hull", "box", "none"]
 Shapes = dict[str, Decomposition]  # by name of the part
@@ -82,7 +83,7 @@ def _rows(surfaces: Mapping[str, Surface]) -> tuple[list[str], list[str]]:
 
 
 def _shapes(surface: Surface, mode: Mode, budget: Budget) -> Decomposition:
-    points = surface.vertices[np.unique(surface.faces)]
+    points = surface.vertices[occurring(surface.faces)]
     match mode:
         case "none":
             return Decomposition(())
