@@ -19,6 +19,7 @@ FILLED = 0.95
 
 _CORNER = 0.005, 0.001  # how far a box's corner may stand out: of its diagonal, and [m] at least
 _ALONG = 1e-4  # a box along the asset's axes is taken if it is larger than a turned one by no more than this
+_ROUND = 16  # corners from which on a hull may fill a cylinder or sphere: of fewer it fills 0.91 at most
 _SQUARE = 0.02  # cosine between two directions that count as perpendicular
 
 
@@ -28,7 +29,7 @@ def fitted(points: FloatArray, volume: float, filled: float = FILLED) -> ConvexM
     Args:
         points: [m].
         volume: of the solid that they bound [m^3]; what shells of it share may be counted twice.
-        filled: share of the primitive that this has to be.
+        filled: share of the primitive that this has to be, above 0.93: few corners are not asked for less.
     """
     hull = hull_of(points)
     return fitted_to(hull, volume, filled) if hull is not None else None
@@ -37,9 +38,9 @@ def fitted(points: FloatArray, volume: float, filled: float = FILLED) -> ConvexM
 def fitted_to(hull: ConvexMesh, volume: float, filled: float = FILLED) -> ConvexMesh | None:
     """The same around points of which the hull is known."""
     box, volume = _box(hull), min(volume, volume_in(hull))
-    candidates = [box] if _corners_stand_out(box, hull) <= _slack(box) else []
-    candidates += [*_cylinders(hull, box), *_spheres(hull)]
-    fitting = [c for c in candidates if volume >= filled * c.volume]
+    boxed = volume >= filled * box.volume and _corners_stand_out(box, hull) <= _slack(box)
+    round_ones = [*_cylinders(hull, box), *_spheres(hull)] if len(hull.vertices) >= _ROUND else []
+    fitting = [box] * boxed + [c for c in round_ones if volume >= filled * c.volume]
     return primitive_shape(min(fitting, key=lambda c: c.volume)) if fitting else None
 
 

@@ -8,8 +8,8 @@ import trimesh
 
 from simart_kit.arrays import FloatArray, vec3
 from simart_kit.asset import ConvexMesh
-from simart_kit.fitting import fitted
-from simart_kit.hulls import hull_of, volume
+from simart_kit.fitting import _ROUND, fitted
+from simart_kit.hulls import convex_hull, hull_of, volume
 from simart_kit.kinematics import rotation
 from simart_kit.primitive_meshes import pose, primitive_shape
 from simart_kit.primitives import Primitive
@@ -81,6 +81,17 @@ def test_a_turned_cylinder(sections: int) -> None:
 
 def test_a_prism_of_six_sides_stays_a_hull() -> None:
     assert fit(trimesh.creation.cylinder(0.05, 0.3, sections=6).vertices) is None
+
+
+@pytest.mark.parametrize("top", [6, 7, 8])
+def test_fewer_corners_than_are_asked_for_fill_no_cylinder(top: int) -> None:
+    # Two polygons turned against each other fill more than a prism: their middle has twice as many sides.
+    for twist in np.linspace(0, np.pi / 7, 9):
+        ends = [(np.arange(n) / n * 2 * np.pi + twist * z, z) for n, z in ((15 - top, 0.0), (top, 1.0))]
+        points = np.concatenate([np.stack([np.cos(a), np.sin(a), np.full(len(a), z)], 1) for a, z in ends])
+        hull = convex_hull(points)
+        assert len(hull.vertices) == _ROUND - 1
+        assert volume(hull) < 0.93 * np.pi
 
 
 def test_volume_that_was_counted_twice_makes_nothing_round() -> None:
