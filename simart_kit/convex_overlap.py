@@ -120,6 +120,10 @@ def gap(one: Convex, other: Convex, deep: float = 0.0) -> tuple[float, FloatArra
         deep: where they overlap by less than this [m], how deep exactly is not looked at: the answer may be
             deeper than it is, but not as deep as this.
     """
+    if deep > 0:  # boxes tell at once of two that hardly share space
+        found = _farthest((*one.bounds,), (*other.bounds,), np.eye(3))
+        if found[0] > -deep:
+            return found
     middles = other.middle - one.middle
     length = float(np.linalg.norm(middles))
     between = middles[None] / length if length > 0 else np.eye(3)
@@ -147,9 +151,14 @@ def _across(one: FloatArray, other: FloatArray) -> FloatArray:
 
 
 def _widest(one: Convex, other: Convex, axes: FloatArray) -> tuple[float, FloatArray]:
-    lower, upper = one.extent(axes)
-    other_lower, other_upper = other.extent(axes)
-    ahead, behind = other_lower - upper, lower - other_upper
+    return _farthest(one.extent(axes), other.extent(axes), axes)
+
+
+def _farthest(
+    one: tuple[FloatArray, FloatArray], other: tuple[FloatArray, FloatArray], axes: FloatArray
+) -> tuple[float, FloatArray]:
+    """How far two extents (K,) are apart along that of (K, 3) axes where it is most, and the way there."""
+    ahead, behind = other[0] - one[1], one[0] - other[1]
     best = int(np.argmax(np.maximum(ahead, behind)))
     sign = 1.0 if ahead[best] >= behind[best] else -1.0
     return float(max(ahead[best], behind[best])), sign * axes[best]

@@ -143,6 +143,28 @@ class TestGap:
     def test_inside_is_as_deep_as_the_shortest_way_out(self) -> None:
         assert measured(UNIT, block((0.4, 0.4, 0.7), (0.6, 0.6, 0.8)))[0] == pytest.approx(-0.3)
 
+    @pytest.mark.parametrize("seed", range(20))
+    def test_overlaps_less_deep_than_asked_for_are_known_to_be_so(self, seed: int) -> None:
+        rng = np.random.default_rng(seed)
+        one = turned_block((1.0, 0.6, 0.4), tuple(rng.normal(size=3)), (0.0, 0.0, 0.0))
+        other = turned_block((0.5, 0.7, 0.3), tuple(rng.normal(size=3)), tuple(rng.uniform(0.1, 0.5, 3)))
+        exact, way = gap(Convex(one), Convex(other))
+        for deep in (0.01, 0.05, 0.1, 0.2):
+            found, axis = gap(Convex(one), Convex(other), deep)
+            if exact < -deep:
+                assert found == pytest.approx(exact)
+                np.testing.assert_allclose(axis, way)
+            else:
+                assert found > -deep
+
+    def test_boxes_tell_of_shapes_that_hardly_share_space(self) -> None:
+        one = Convex(block((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))
+        other = Convex(turned_block((0.4, 0.4, 0.4), (0.3, 0.2, 0.1), (-0.2, 0.5, 0.5)))
+        found, axis = gap(one, other, 0.1)
+        assert found == pytest.approx(-other.bounds[1, 0])
+        np.testing.assert_array_equal(axis, [-1.0, 0.0, 0.0])
+        assert not {"normals", "edges"} & {*vars(one), *vars(other)}
+
     @pytest.mark.parametrize("seed", range(6))
     def test_mujoco_measures_the_same_depth(self, seed: int) -> None:
         rng = np.random.default_rng(seed)
