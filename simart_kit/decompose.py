@@ -76,9 +76,14 @@ class Surface:
     most: int = MOST_PIECES
 
     @cached_property
+    def points(self) -> FloatArray:
+        """(N, 3) vertices that its faces use [m]."""
+        return self.vertices[occurring(self.faces)]
+
+    @cached_property
     def whole(self) -> Piece:
         """All of it, filled."""
-        return hulled(self.vertices[occurring(self.faces)])
+        return hulled(self.points)
 
     @cached_property
     def pieces(self) -> list[Piece]:

@@ -12,7 +12,6 @@ from simart_kit.beside import Beside
 from simart_kit.decompose import Budget, Decomposition, Surface, decompose_by_tool, decompose_surface
 from simart_kit.fitting import aligned_box
 from simart_kit.hulls import MIN_THICKNESS, convex_hull
-from simart_kit.topology import occurring
 
 Mode = Literal["auto", "decompose", "hull", "box", "none"]
 Shapes = dict[str, Decomposition]  # by name of the part
@@ -83,15 +82,15 @@ def _rows(surfaces: Mapping[str, Surface]) -> tuple[list[str], list[str]]:
 
 
 def _shapes(surface: Surface, mode: Mode, budget: Budget) -> Decomposition:
-    points = surface.vertices[occurring(surface.faces)]
     match mode:
         case "none":
             return Decomposition(())
         case "box":
+            points = surface.points
             grow = np.maximum(MIN_THICKNESS - np.ptp(points, axis=0), 0) / 2
             return Decomposition((aligned_box(points.min(axis=0) - grow, points.max(axis=0) + grow),))
         case "hull":
-            return Decomposition((convex_hull(points, budget.vertices),))
+            return Decomposition((convex_hull(surface.points, budget.vertices),))
         case "decompose":
             return decompose_by_tool(surface.vertices, surface.faces, budget)
         case "auto":
