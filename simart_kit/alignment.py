@@ -4,25 +4,45 @@ from __future__ import annotations
 
 import numpy as np
 
+from .arrays import FloatArray
 from .mesh import Mesh
+
+_QUARTER = np.pi / 2
+_BINS = 90  # of a degree
+# Share of the upright surface in one bin; and of a rough skin, whose flat sides lean this way and that, in
+# that one and as many bins on either side of it.
+_CRISP, _ROUGH, _AROUND = 0.25, 0.5, 3
 
 
 def yaw(mesh: Mesh) -> float:
     """Turn of the object's upright faces against the axes [rad], in (-pi/4, pi/4].
 
-    The fullest one-degree bin of directions, modulo a quarter turn; 0 where no direction stands out.
+    The fullest one-degree bin of directions, modulo a quarter turn, or of a rough skin the fullest seven side
+    by side; 0 where no direction stands out.
     """
     normals, areas = mesh.face_normals, mesh.face_areas
     upright = np.abs(normals[:, 2]) < 0.2
     if areas[upright].sum() < 0.05 * areas.sum():
         return 0.0
-    angles = np.arctan2(normals[upright, 1], normals[upright, 0])
-    quarter = np.mod(angles + np.pi / 4, np.pi / 2) - np.pi / 4
-    weights = areas[upright]
-    histogram, edges = np.histogram(quarter, bins=90, range=(-np.pi / 4, np.pi / 4), weights=weights)
-    if histogram.max() < 0.25 * weights.sum():
-        return 0.0
+    turns, weights = np.arctan2(normals[upright, 1], normals[upright, 0]), areas[upright]
+    histogram, edges = np.histogram(
+        _wrapped(turns), bins=_BINS, range=(-_QUARTER / 2, _QUARTER / 2), weights=weights
+    )
+    histogram = histogram / weights.sum()
+    crisp = histogram.max() >= _CRISP
+    if not crisp:
+        histogram = np.sum([np.roll(histogram, by) for by in range(-_AROUND, _AROUND + 1)], axis=0)
+        if histogram.max() < _ROUGH:
+            return 0.0
     middle = (edges[:-1] + edges[1:])[histogram.argmax()] / 2
-    near = np.abs(quarter - middle) < np.deg2rad(1.5)
-    found = float(np.average(quarter[near], weights=weights[near]))
-    return 0.0 if abs(found) < np.deg2rad(0.5) else found
+    for reach in np.deg2rad([1.5] if crisp else [_AROUND, _AROUND]):
+        off = _wrapped(turns - middle)
+        near = np.abs(off) < reach
+        middle = middle + np.average(off[near], weights=weights[near])
+    found = float(_wrapped(middle))
+    return 0.0 if abs(found) < np.deg2rad(0.5 if crisp else 1.0) else found
+
+
+def _wrapped(turns: FloatArray) -> FloatArray:
+    """Turns [rad] modulo a quarter, around 0."""
+    return np.mod(turns + _QUARTER / 2, _QUARTER) - _QUARTER / 2
