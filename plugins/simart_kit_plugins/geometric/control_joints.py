@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray, unit
+from simart_kit.arrays import unit
 
 from .candidates import Candidate, Choice
 from .caps import measure_cap
@@ -38,11 +38,11 @@ def pulled(scene: Scene, view: View) -> Choice | None:
     if cap is None:
         return None
     box = scene.boxes[view.part]
-    axis, way = _level_across(cap.outward)
-    lean = float(way @ cap.outward)
-    if abs(lean) < _LEANS:
-        lean = float(way @ (box.center - scene.box.center))
-    away = way if lean > 0 else -way
+    leans = cap.outward
+    if np.abs(leans[:2]).max() < _LEANS:
+        leans = box.center - scene.box.center
+    along = int(abs(leans[1]) >= abs(leans[0]))
+    axis, away = np.eye(3)[1 - along], np.sign(leans[along]) * np.eye(3)[along]
     root = box.center + box.size * (_AHEAD * away + [0.0, 0.0, _UP])
     # Pulled, its lower end goes back towards the hand.
     turned = axis if np.cross(axis, [0.0, 0.0, -1.0]) @ away < 0 else -axis
@@ -74,9 +74,3 @@ def turned(scene: Scene, view: View) -> Choice | None:
         0.7,
         ("round about this axis",),
     )
-
-
-def _level_across(outward: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Level axes of a trigger: the one it turns about, and the one along which it faces."""
-    along = 0 if abs(outward[0]) > max(abs(outward[1]), 0.5) else 1
-    return np.eye(3)[1 - along], np.eye(3)[along]

@@ -46,12 +46,14 @@ class Mover:
         label: such as "door", "sliding_door", "drawer", "lid", "rack", "lever", "wheel" or "button".
         score: 0..1.
         evidence: why it moves, a phrase each.
+        facing: side that it opens to, key of `FACINGS`; "" where that does not tell how the object stands.
     """
 
     pieces: tuple[int, ...]
     label: str
     score: float
     evidence: tuple[str, ...]
+    facing: str = ""
 
 
 def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
@@ -159,7 +161,7 @@ def _apart(scored: Sequence[tuple[float, Front]], taken: set[int], labels: Mappi
         if not used.intersection(front.pieces):
             used.update(front.pieces)
             label = labels.get(front.piece) or _label(front)
-            movers.append(Mover(front.pieces, label, score, _evidence(front)))
+            movers.append(Mover(front.pieces, label, score, _evidence(front), front.facing))
     return movers
 
 

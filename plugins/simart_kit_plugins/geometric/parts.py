@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Set
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +12,7 @@ from simart_kit.segments import Segments, find_segments
 
 from .contact import Contacts
 from .controls import hand_controls
+from .facing import Finder, faced, held, most
 from .inner_drawers import inner_drawers, with_fronts
 from .levers import with_levers
 from .lids import lids
@@ -32,9 +32,6 @@ if TYPE_CHECKING:
 
 _MOST_PIECES = 600
 
-Finder = Callable[[Scene, Contacts, Set[int]], list[Mover]]
-"""Finds movers among the pieces that are not taken yet."""
-
 # After the fronts; each has what those before it left.
 _FINDERS: tuple[Finder, ...] = (
     rotors,
@@ -45,10 +42,9 @@ _FINDERS: tuple[Finder, ...] = (
     racks,
     inner_drawers,
     wheels,
-    knobs,
-    collared,
-    over_holes,
 )
+# The same, of those that look at the side that the object faces.
+_FACED: tuple[Finder, ...] = (knobs, collared, over_holes)
 
 
 def parts_of(mesh: Mesh, spec: Spec | None, max_parts: int, crease: float, node_hint: bool) -> Segmentation:
@@ -86,10 +82,11 @@ def _find(scene: Scene, segments: Segments, spec: Spec | None) -> list[Mover]:
         return []
     contacts = Contacts(scene)
     fronts = with_levers(scene, contacts, front_movers(scene, contacts, segments.patches))
-    found = _apart(hand_controls(scene, contacts, set()), fronts)
+    found = _apart(most(hand_controls, held(scene), contacts, set()), fronts)
     taken = {piece for mover in found for piece in mover.pieces}
-    for finder in _FINDERS:
-        for mover in finder(scene, contacts, taken):
+    sides = faced(scene, fronts)
+    for finder, scenes in [*((one, [scene]) for one in _FINDERS), *((one, sides) for one in _FACED)]:
+        for mover in most(finder, scenes, contacts, taken):
             if not taken.intersection(mover.pieces):
                 found.append(mover)
                 taken.update(mover.pieces)

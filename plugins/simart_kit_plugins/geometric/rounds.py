@@ -119,7 +119,7 @@ def knobs(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
                 break
     left = [piece for piece in found if not any(piece in group for group in rows)]
     rows += [group for group in _of_a_size(scene, left, _TURNED) if _row(scene, group)]
-    for group in rows:
+    for group in [group for group in rows if not any(_opposite(scene, group, other) for other in rows)]:
         reason = (f"one of {len(group)} discs alike, close together",)
         for piece in group:
             cap = measure_cap(scene, (piece,))
@@ -155,6 +155,16 @@ def _row(scene: Scene, group: Sequence[int]) -> bool:
     apart = np.linalg.norm(places[:, None] - places, axis=2) + np.diag([np.inf] * len(group))
     near, diameter = apart.min(axis=1), scene.boxes[group[0]].size[2]
     return len(group) >= 3 and not (near < diameter).any() and not (near > _TOGETHER * diameter).any()
+
+
+def _opposite(scene: Scene, group: Sequence[int], other: Sequence[int]) -> bool:
+    """Whether another row mirrors this one: what is turned is on one side, buttons of cuffs on two."""
+    if len(group) != len(other) or group is other:
+        return False
+    mine, others = (np.array([scene.boxes[i].center for i in row]) for row in (group, other))
+    middle, apart = scene.box.center[1], np.linalg.norm(np.ptp(mine, axis=0))
+    across = (mine[:, 1].mean() - middle) * (others[:, 1].mean() - middle) < 0
+    return bool(across and np.linalg.norm((mine.mean(axis=0) - others.mean(axis=0))[[0, 2]]) < apart)
 
 
 def collared(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
