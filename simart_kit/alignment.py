@@ -12,13 +12,15 @@ _BINS = 90  # of a degree
 # Share of the upright surface in one bin; and of a rough skin, whose flat sides lean this way and that, in
 # that one and as many bins on either side of it.
 _CRISP, _ROUGH, _AROUND = 0.25, 0.5, 3
+# What stands along the axes and opens, stands ajar: so much of the surface that does so leads.
+_STRAIGHT = 1 / 3
 
 
 def yaw(mesh: Mesh) -> float:
     """Turn of the object's upright faces against the axes [rad], in (-pi/4, pi/4].
 
     The fullest one-degree bin of directions, modulo a quarter turn, or of a rough skin the fullest seven side
-    by side; 0 where no direction stands out.
+    by side; 0 where no direction stands out, or much of a surface that is not rough follows the axes.
     """
     normals, areas = mesh.face_normals, mesh.face_areas
     upright = np.abs(normals[:, 2]) < 0.2
@@ -40,7 +42,14 @@ def yaw(mesh: Mesh) -> float:
         near = np.abs(off) < reach
         middle = middle + np.average(off[near], weights=weights[near])
     found = float(_wrapped(middle))
-    return 0.0 if abs(found) < np.deg2rad(0.5 if crisp else 1.0) else found
+    little = abs(found) < np.deg2rad(0.5 if crisp else 1.0)
+    return 0.0 if little or (crisp and _stands_straight(turns, weights, found)) else found
+
+
+def _stands_straight(turns: FloatArray, weights: FloatArray, found: float) -> bool:
+    """Whether much follows the axes too, where more of the faces' turns [rad] are another one."""
+    along, askew = (weights[np.abs(_wrapped(turns - by)) < np.deg2rad(0.5)].sum() for by in (0.0, found))
+    return bool(along >= _STRAIGHT * askew)
 
 
 def _wrapped(turns: FloatArray) -> FloatArray:

@@ -6,8 +6,9 @@ import trimesh
 
 from simart_kit.alignment import yaw
 from simart_kit.mesh import Mesh
+from simart_kit.testing.meshes import boxes_mesh
 
-from .furniture import turned
+from .furniture import box, joined, turned
 
 
 def block(noise: float = 0.0) -> Mesh:
@@ -45,3 +46,11 @@ def test_what_has_no_direction_is_not_turned(mesh: Mesh) -> None:
 def test_a_little_of_a_turn_is_none() -> None:
     assert yaw(turned(block(), 0.4)) == 0.0
     assert yaw(turned(block(0.0005), 0.8)) == 0.0
+
+
+def test_what_stands_along_the_axes_and_is_ajar_is_not_turned() -> None:
+    """More of the surface is that of the leaves; alone, these would tell a direction."""
+    frame, leaf = box((0.0, 0.3), (0.0, 0.3), (0.0, 1.0)), box((0.3, 1.0), (0.0, 0.02), (0.0, 1.0))
+    leaf_ajar = turned(boxes_mesh([leaf]), 20.0)
+    assert np.degrees(yaw(leaf_ajar)) == pytest.approx(20.0, abs=1e-6)
+    assert yaw(joined(boxes_mesh([frame]), leaf_ajar)) == 0.0

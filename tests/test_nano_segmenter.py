@@ -27,6 +27,8 @@ from simart_kit.segments import find_segments
 from simart_kit.srgb import linear_to_srgb, srgb_to_linear
 from simart_kit.testing.meshes import boxes_mesh, cabinet_asset
 
+from .furniture import turned, turning
+
 TINY = {"channels": 16, "layers": 1, "heads": 2, "hidden": 16, "point_channels": 8}
 CONFIG = NanoConfig(**TINY, labels=("door", "drawer"), categories=("cabinet",))
 SURE = 12.0
@@ -169,6 +171,24 @@ def test_very_many_pieces_become_fewer_near_ones():
     assert find_segments(mesh).count == 512
     assert found.cloud.count == MOST_PIECES
     assert len(np.unique(found.face_piece)) == MOST_PIECES
+
+
+def test_what_stands_askew_is_read_straight_and_its_joints_are_turned_with_it(monkeypatch):
+    asset = cabinet_asset()
+    pieces = find_segments(asset.mesh).face_segment
+    part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
+    model = Told(Oracle(part, slides=False), KNOWN)
+    monkeypatch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: model)
+    nano = Nano(read_options(Nano, {"model": "any", "pool": False, "votes": 1, "least": 0.0}))
+    straight, askew = nano.segment(asset.mesh), nano.segment(turned(asset.mesh, 30.0))
+    assert np.array_equal(askew.face_part, straight.face_part)
+    assert len(straight.joints) == 2
+    turn = turning(30.0)[:3, :3]
+    for one, other in zip(straight.joints, askew.joints, strict=True):
+        np.testing.assert_allclose(other.axis, turn @ one.axis, atol=1e-6)
+        np.testing.assert_allclose(other.origin, turn @ one.origin, atol=1e-6)
+        assert other.limits == one.limits
+    np.testing.assert_allclose(askew.evidence[1].points, straight.evidence[1].points @ turn.T, atol=1e-6)
 
 
 @pytest.mark.parametrize("slides", [False, True])

@@ -16,6 +16,8 @@ import simart_kit
 from simart_kit import Note, Segmentation, Segmenter
 from simart_kit.arrays import frozen_ints
 
+from .straightening import seen_straight
+
 if TYPE_CHECKING:
     from simart_kit import Mesh
     from simart_kit.spec.values import Spec
@@ -67,7 +69,7 @@ class Nano(Segmenter):
         Raises:
             BadInputError: the weights cannot be read.
         """
-        return self._segmented(mesh, None)
+        return seen_straight(mesh, lambda straight: self._segmented(straight, None))
 
     def segment_to(self, mesh: Mesh, spec: Spec) -> Segmentation:
         """As `segment`; where a spec states other parts or joints, the likeliest of those that fit.
@@ -75,7 +77,7 @@ class Nano(Segmenter):
         Raises:
             BadInputError: the weights cannot be read.
         """
-        return self._segmented(mesh, spec)
+        return seen_straight(mesh, lambda straight: self._segmented(straight, spec))
 
     def _segmented(self, mesh: Mesh, spec: Spec | None) -> Segmentation:
         from simart_kit.segments import find_segments

@@ -1,0 +1,44 @@
+"""An object that stands askew is seen as if it stood along the axes, as all that was learnt from does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from simart_kit.alignment import yaw
+from simart_kit.evidence import PointEvidence
+from simart_kit.kinematics import rotation
+
+if TYPE_CHECKING:
+    from simart_kit import Mesh, Segmentation
+    from simart_kit.arrays import FloatArray
+    from simart_kit.evidence import Evidence
+
+
+def seen_straight(mesh: Mesh, segment: Callable[[Mesh], Segmentation]) -> Segmentation:
+    """What a segmenter finds in a mesh turned so that its upright faces follow the axes, turned back."""
+    askew = yaw(mesh)
+    if askew == 0:
+        return segment(mesh)
+    return _turned(segment(mesh.transformed(_about_vertical(-askew))), _about_vertical(askew))
+
+
+def _about_vertical(angle: float) -> FloatArray:
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation(np.array([0.0, 0.0, angle]))
+    return matrix
+
+
+def _turned(found: Segmentation, matrix: FloatArray) -> Segmentation:
+    """A segmentation in another frame, by a (4, 4) rotation."""
+    joints = None if found.joints is None else tuple(joint.transformed(matrix) for joint in found.joints)
+    mesh = None if found.mesh is None else found.mesh.transformed(matrix)
+    evidence = tuple(_evidence_turned(one, matrix) for one in found.evidence)
+    return replace(found, joints=joints, mesh=mesh, evidence=evidence)
+
+
+def _evidence_turned(one: Evidence, matrix: FloatArray) -> Evidence:
+    return replace(one, points=one.points @ matrix[:3, :3].T) if isinstance(one, PointEvidence) else one
