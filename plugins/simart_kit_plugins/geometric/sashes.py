@@ -77,7 +77,7 @@ def sliding(scene: Scene, view: View) -> Choice:
     if best is None:
         return _towards_the_middle(view)
     candidate = Candidate("prismatic", best[2], view.box.center, best[1])
-    return candidate, 0.7, ("has room beside itself to slide into",)
+    return candidate, 0.8, ("has room beside itself to slide into",)
 
 
 def _towards_the_middle(view: View) -> Choice:
