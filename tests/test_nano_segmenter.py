@@ -189,6 +189,9 @@ def test_what_stands_askew_is_read_straight_and_its_joints_are_turned_with_it(mo
         np.testing.assert_allclose(other.origin, turn @ one.origin, atol=1e-6)
         assert other.limits == one.limits
     np.testing.assert_allclose(askew.evidence[1].points, straight.evidence[1].points @ turn.T, atol=1e-6)
+    assert [note.text for note in askew.notes if note not in straight.notes] == [
+        "it stands askew by 30.0 degrees about the vertical, and was read straight"
+    ]
 
 
 @pytest.mark.parametrize("slides", [False, True])

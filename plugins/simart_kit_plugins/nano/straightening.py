@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from simart_kit import Note
 from simart_kit.alignment import yaw
 from simart_kit.evidence import PointEvidence
 from simart_kit.kinematics import rotation
@@ -23,7 +24,9 @@ def seen_straight(mesh: Mesh, segment: Callable[[Mesh], Segmentation]) -> Segmen
     askew = yaw(mesh)
     if askew == 0:
         return segment(mesh)
-    return _turned(segment(mesh.transformed(_about_vertical(-askew))), _about_vertical(askew))
+    found = _turned(segment(mesh.transformed(_about_vertical(-askew))), _about_vertical(askew))
+    told = f"it stands askew by {np.degrees(askew):.1f} degrees about the vertical, and was read straight"
+    return replace(found, notes=(*found.notes, Note("segment", "info", told)))
 
 
 def _about_vertical(angle: float) -> FloatArray:
