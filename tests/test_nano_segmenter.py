@@ -21,13 +21,12 @@ from simart_kit_plugins.nano.truth import KINDS
 from simart_kit_plugins.nano.weights import load_model, save_network
 
 from simart_kit.errors import BadInputError
+from simart_kit.kinematics import rotation
 from simart_kit.mesh import Mesh
 from simart_kit.recipe import read_options
 from simart_kit.segments import find_segments
 from simart_kit.srgb import linear_to_srgb, srgb_to_linear
 from simart_kit.testing.meshes import boxes_mesh, cabinet_asset
-
-from .furniture import turned, turning
 
 TINY = {"channels": 16, "layers": 1, "heads": 2, "hidden": 16, "point_channels": 8}
 CONFIG = NanoConfig(**TINY, labels=("door", "drawer"), categories=("cabinet",))
@@ -173,24 +172,28 @@ def test_very_many_pieces_become_fewer_near_ones():
     assert len(np.unique(found.face_piece)) == MOST_PIECES
 
 
-def test_what_stands_askew_is_read_straight_and_its_joints_are_turned_with_it(monkeypatch):
+@pytest.mark.parametrize(("turns", "leans", "askew"), [(30.0, 0.0, "30.0"), (0.0, 3.0, "3.0")])
+def test_what_stands_askew_is_read_straight_and_turned_back(monkeypatch, turns, leans, askew):
     asset = cabinet_asset()
     pieces = find_segments(asset.mesh).face_segment
     part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
     model = Told(Oracle(part, slides=False), KNOWN)
     monkeypatch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: model)
     nano = Nano(read_options(Nano, {"model": "any", "pool": False, "votes": 1, "least": 0.0}))
-    straight, askew = nano.segment(asset.mesh), nano.segment(turned(asset.mesh, 30.0))
-    assert np.array_equal(askew.face_part, straight.face_part)
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation(np.radians([leans, 0.0, turns]))
+    straight, found = nano.segment(asset.mesh), nano.segment(asset.mesh.transformed(matrix))
+    assert np.array_equal(found.face_part, straight.face_part)
     assert len(straight.joints) == 2
-    turn = turning(30.0)[:3, :3]
-    for one, other in zip(straight.joints, askew.joints, strict=True):
-        np.testing.assert_allclose(other.axis, turn @ one.axis, atol=1e-6)
-        np.testing.assert_allclose(other.origin, turn @ one.origin, atol=1e-6)
+    for one, other in zip(straight.joints, found.joints, strict=True):
+        expected = one.transformed(matrix)
+        np.testing.assert_allclose(other.axis, expected.axis, atol=1e-5)
+        np.testing.assert_allclose(other.origin, expected.origin, atol=1e-5)
         assert other.limits == one.limits
-    np.testing.assert_allclose(askew.evidence[1].points, straight.evidence[1].points @ turn.T, atol=1e-6)
-    assert [note.text for note in askew.notes if note not in straight.notes] == [
-        "it stands askew by 30.0 degrees about the vertical, and was read straight"
+    points = straight.evidence[1].points @ matrix[:3, :3].T
+    np.testing.assert_allclose(found.evidence[1].points, points, atol=1e-5)
+    assert [note.text for note in found.notes if note not in straight.notes] == [
+        f"it stands askew by {askew} degrees, and was read straight"
     ]
 
 

@@ -7,10 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
-from simart_kit.alignment import yaw
+from simart_kit.alignment import straight_from_asset
 from simart_kit.arrays import FloatArray, IntArray
 from simart_kit.kept import kept
-from simart_kit.kinematics import rotation
 from simart_kit.mesh import Mesh
 from simart_kit.rays import Rays
 
@@ -22,7 +21,7 @@ class Aligned:
     Attributes:
         vertices: (V, 3); the object's diagonal is 1.
         faces: (F, 3) vertex indices.
-        from_asset: (3, 3) rotation about the vertical.
+        from_asset: (3, 3) rotation, mostly about the vertical.
         size: diagonal of the object [m].
         origin: (3,) point of the asset frame that is the aligned frame's origin [m].
     """
@@ -62,7 +61,7 @@ class Aligned:
 @kept
 def aligned(mesh: Mesh) -> Aligned:
     """The faces of a mesh in the aligned frame; whoever looks at its pieces shares them."""
-    turn = rotation(np.array([0.0, 0.0, -yaw(mesh)]))
+    turn = straight_from_asset(mesh)
     origin = mesh.bounds.mean(axis=0)
     vertices = (mesh.vertices - origin) @ turn.T / mesh.diagonal
     return Aligned(vertices, mesh.faces, turn, mesh.diagonal, origin)

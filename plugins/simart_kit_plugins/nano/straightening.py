@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from simart_kit import Note
-from simart_kit.alignment import yaw
+from simart_kit.alignment import straight_from_asset
 from simart_kit.evidence import PointEvidence
-from simart_kit.kinematics import rotation
 
 if TYPE_CHECKING:
     from simart_kit import Mesh, Segmentation
@@ -19,20 +18,19 @@ if TYPE_CHECKING:
     from simart_kit.evidence import Evidence
 
 
+_LEAST = np.deg2rad(0.1)
+
+
 def seen_straight(mesh: Mesh, segment: Callable[[Mesh], Segmentation]) -> Segmentation:
-    """What a segmenter finds in a mesh turned so that its upright faces follow the axes, turned back."""
-    askew = yaw(mesh)
-    if askew == 0:
+    """What a segmenter finds in a mesh turned so that its faces follow the axes, turned back."""
+    straight_from_mesh = np.eye(4)
+    straight_from_mesh[:3, :3] = straight_from_asset(mesh)
+    askew = np.arccos(np.clip((np.trace(straight_from_mesh) - 2) / 2, -1, 1))
+    if askew < _LEAST:
         return segment(mesh)
-    found = _turned(segment(mesh.transformed(_about_vertical(-askew))), _about_vertical(askew))
-    told = f"it stands askew by {np.degrees(askew):.1f} degrees about the vertical, and was read straight"
+    found = _turned(segment(mesh.transformed(straight_from_mesh)), straight_from_mesh.T)
+    told = f"it stands askew by {np.degrees(askew):.1f} degrees, and was read straight"
     return replace(found, notes=(*found.notes, Note("segment", "info", told)))
-
-
-def _about_vertical(angle: float) -> FloatArray:
-    matrix = np.eye(4)
-    matrix[:3, :3] = rotation(np.array([0.0, 0.0, angle]))
-    return matrix
 
 
 def _turned(found: Segmentation, matrix: FloatArray) -> Segmentation:
