@@ -1,8 +1,12 @@
 """`geometric` on windows and doors in their frames: both leaves, what slides, and what turns."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import trimesh
+from simart_kit_plugins.nano.pooling import pooled
+from simart_kit_plugins.nano.proposals import of_geometry
 
 from simart_kit.mesh import Mesh
 from simart_kit.testing.meshes import boxes_mesh
@@ -68,6 +72,14 @@ class TestSliding:
         assert set(result.kinds.values()) == {"prismatic"}
         for name, way in (("left_sliding_door", 1), ("right_sliding_door", -1)):
             np.testing.assert_allclose(result.joint(name).axis, [way, 0, 0], atol=1e-9)
+
+    def test_no_hinge_overrules_a_leaf_that_has_room_to_slide_into(self) -> None:
+        """However sure the network is of one."""
+        leaves = [leaf((-0.595, 0.02), (-0.03, -0.005)), leaf((-0.02, 0.595), (0.005, 0.03))]
+        mesh = boxes_mesh([*FRAME, *leaves])
+        first = of_geometry(mesh, seed=0)
+        hinges = [replace(p, joint=replace(p.joint, kind="revolute", confidence=0.999)) for p in first]
+        assert {p.joint.kind for p in pooled(mesh, first, hinges)} == {"prismatic"}
 
     def test_doors_of_a_wardrobe_do_before_its_body_without_a_frame(self) -> None:
         body = carcass((-0.6, 0.6), (-0.3, 0.3), (0.0, 2.0))
