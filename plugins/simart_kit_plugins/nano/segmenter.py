@@ -16,7 +16,7 @@ import simart_kit
 from simart_kit import Note, Segmentation, Segmenter
 from simart_kit.arrays import frozen_ints
 
-from .straightening import seen_straight
+from .askew import seen_straight
 
 if TYPE_CHECKING:
     from simart_kit import Mesh

@@ -18,15 +18,12 @@ if TYPE_CHECKING:
     from simart_kit.evidence import Evidence
 
 
-_LEAST = np.deg2rad(0.1)
-
-
 def seen_straight(mesh: Mesh, segment: Callable[[Mesh], Segmentation]) -> Segmentation:
     """What a segmenter finds in a mesh turned so that its faces follow the axes, turned back."""
     straight_from_mesh = np.eye(4)
     straight_from_mesh[:3, :3] = straight_from_asset(mesh)
     askew = np.arccos(np.clip((np.trace(straight_from_mesh) - 2) / 2, -1, 1))
-    if askew < _LEAST:
+    if askew == 0:
         return segment(mesh)
     found = _turned(segment(mesh.transformed(straight_from_mesh)), straight_from_mesh.T)
     told = f"it stands askew by {np.degrees(askew):.1f} degrees, and was read straight"
