@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from simart_kit_plugins.geometric.predictor import GeometricJoints
 from simart_kit_plugins.nano.pooling import pooled
 from simart_kit_plugins.nano.proposals import of_geometry
 
+from simart_kit import PartGuess, Segmentation
 from simart_kit.mesh import Mesh
 from simart_kit.testing.meshes import boxes_mesh
 
@@ -139,6 +141,16 @@ class TestLines:
         assert_hinge(result.joint("lever"), (-0.54, 0, 1), "y")
         assert result.joint("lever").parent == "door"
         assert len(result.faces("lever")) == 4 * 12
+
+    def test_a_lever_turns_where_it_is_held_though_hinges_stand_out_of_its_leaf(self) -> None:
+        knuckles = [box((0.57, 0.595), (-0.06, -0.02), (z, z + 0.1)) for z in (0.3, 1.6)]
+        boxes = [*FRAME, leaf((-0.595, 0.595)), *knuckles, *feet(-0.54), *arms((-0.55, -0.43))]
+        labels = np.repeat([0] * 4 + [1] * 3 + [2] * 4, 12).astype(np.int32)
+        parts = (PartGuess("body"), PartGuess("door"), PartGuess("lever"))
+        segmentation = Segmentation(labels, parts)
+        joints = {joint.child: joint for joint in GeometricJoints().predict(boxes_mesh(boxes), segmentation)}
+        assert joints["lever"].parent == "door"
+        assert_hinge(joints["lever"], (-0.54, 0, 1), "y")
 
     @pytest.mark.parametrize("side", [-1, 1])
     def test_the_far_end_of_a_lever_goes_down(self, side: int) -> None:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from simart_kit.arrays import FloatArray
+from simart_kit.bounds import triangle_bounds
 
 from .candidates import Candidate, Choice
 from .contact import Contacts, hanging_on
@@ -45,8 +46,9 @@ def _lever_of(scene: Scene, contacts: Contacts, door: Mover) -> tuple[tuple[int,
 
 
 def pierced(scene: Scene, part: int, others: Sequence[int]) -> int | None:
-    """The part that one goes right through, across the least of its extents."""
-    return next((other for other in others if _through(scene.boxes[part], scene.boxes[other])), None)
+    """The part that one goes right through, across the least of its extents; no frame around that."""
+    leaves = {other: _beneath(scene, part, other) for other in others}
+    return next((i for i, leaf in leaves.items() if leaf and _through(scene.boxes[part], leaf)), None)
 
 
 def levering(scene: Scene, view: View) -> Choice | None:
@@ -72,13 +74,27 @@ def with_handle(scene: Scene, view: View, levers: Sequence[int]) -> View:
 
 def _pierced_at(scene: Scene, part: int, leaf: int) -> FloatArray:
     """(3,) middle of where one part goes through the middle of another, or holds on to it on both sides."""
-    box = scene.boxes[leaf]
+    box = _beneath(scene, part, leaf) or scene.boxes[leaf]
     normal = int(box.size.argmin())
     turn = np.roll(np.eye(3), 2 - normal, axis=0)  # rows: two in the leaf's plane, then its normal
     middle = cut(scene.triangles[scene.labels == part] @ turn.T, float(box.center[normal]))
     if middle is not None:
         return np.array([*middle, box.center[normal]]) @ turn
     return held_at(scene.points_of(part), box)
+
+
+def _beneath(scene: Scene, part: int, leaf: int) -> Box | None:
+    """The box of a leaf, as thick as under a lever: its hinges may stand out farther; None beside it."""
+    box, lever = scene.boxes[leaf], scene.boxes[part]
+    normal = int(box.size.argmin())
+    within = np.delete(np.arange(3), normal)
+    lower, upper = triangle_bounds(scene.triangles[scene.faces_of((leaf,))])
+    under = ((lower <= lever.upper) & (upper >= lever.lower))[:, within].all(axis=1)
+    if not under.any():
+        return None
+    thick = np.arange(3) == normal
+    low, high = lower[under].min(axis=0), upper[under].max(axis=0)
+    return Box(np.where(thick, low, box.lower), np.where(thick, high, box.upper))
 
 
 def _on_spindle(scene: Scene, contacts: Contacts, door: Sequence[int], panel: int) -> tuple[int, ...]:
