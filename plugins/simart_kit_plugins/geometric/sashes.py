@@ -50,13 +50,40 @@ def slides_over(scene: Scene, front: Front) -> bool:
         return False
     axes = FACINGS[front.facing]
     size = Box.around([scene.boxes[i].turned(axes) for i in front.handles]).size
-    place = 2 * front.held[0]
-    left, right = (_room(scene, axes, front, sign) for sign in (-1.0, 1.0))
-    return bool(left != right and size[1] > size[0] and (place if right else -place) < _INNER)
+    side = room_beside(scene, axes, front.box, front.pieces)
+    return bool(side and crosses(size, 2 * front.held[0] * side))
+
+
+def crosses(handle: FloatArray, place: float) -> bool:
+    """Whether a handle is that of what slides: across its way, and not on the side of its room.
+
+    Args:
+        handle: (3,) extents along the way, up, and out.
+        place: of its middle, from -1 to 1 on the side of the room.
+    """
+    return bool(handle[1] > handle[0] and place < _INNER)
+
+
+def room_beside(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...]) -> int:
+    """The side, -1 or 1 along u, on which alone a panel has room to slide into; 0 for none or both.
+
+    Args:
+        scene: it is in.
+        axes: (3, 3) rows u, v, w.
+        box: of the panel, in (u, v, w).
+        own: pieces that move with it.
+    """
+    left, right = (_room(scene, axes, box, own, sign) for sign in (-1.0, 1.0))
+    return int(right) - int(left)
 
 
 def sliding(scene: Scene, view: View) -> Choice:
-    """Along the front to where it goes farthest; the longer way where both are free."""
+    """Along the front to where it goes farthest, or to where the body goes on."""
+    return with_room(scene, view) or _towards_the_middle(view)
+
+
+def with_room(scene: Scene, view: View) -> Choice | None:
+    """Along the front to where it goes farthest; the longer way where both are free, None where none is."""
     mine = scene.labels == view.part
     sweep = Sweep(scene.vertices @ view.axes.T, scene.faces[mine], scene.faces[~mine])
     best: tuple[float, float, FloatArray] | None = None
@@ -75,7 +102,7 @@ def sliding(scene: Scene, view: View) -> Choice:
         if share >= 0.4 and (best is None or share > best[0] + 0.1):
             best = share, travel, direction
     if best is None:
-        return _towards_the_middle(view)
+        return None
     candidate = Candidate("prismatic", best[2], view.box.center, best[1])
     return candidate, 0.8, ("has room beside itself to slide into",)
 
@@ -109,21 +136,21 @@ def _shared(a: Box, b: Box, axis: int) -> float:
     return float(min(a.upper[axis], b.upper[axis]) - max(a.lower[axis], b.lower[axis]))
 
 
-def _room(scene: Scene, axes: FloatArray, front: Front, sign: float) -> bool:
+def _room(scene: Scene, axes: FloatArray, box: Box, own: tuple[int, ...], sign: float) -> bool:
     """Whether nothing stands beside a panel for its width, and the body is behind all of that room."""
-    box, heights, whole = front.box, np.linspace(-0.35, 0.35, 5), scene.box.turned(axes)
+    heights, whole = np.linspace(-0.35, 0.35, 5), scene.box.turned(axes)
     end = box.center[0] + sign * (0.5 + _ROOM) * box.size[0]
     if not whole.lower[0] <= end <= whole.upper[0]:
         return False
     points = np.tile(box.center, (5, 1))
     points[:, 1] += heights * box.size[1]
-    labels, distance = cast(scene, axes, points, np.array([sign, 0.0, 0.0]), front.pieces)
+    labels, distance = cast(scene, axes, points, np.array([sign, 0.0, 0.0]), own)
     if ((labels >= 0) & (distance < (0.5 + _ROOM) * box.size[0])).any():
         return False
     steps = (0.6, 0.8, 1.0, 1.2, 1.35)
     beside = np.concatenate([points + [sign * step * box.size[0], 0.0, 0.0] for step in steps])
-    behind, _ = cast(scene, axes, beside, np.array([0.0, 0.0, -1.0]), front.pieces)
-    before, _ = cast(scene, axes, beside, np.array([0.0, 0.0, 1.0]), front.pieces)
+    behind, _ = cast(scene, axes, beside, np.array([0.0, 0.0, -1.0]), own)
+    before, _ = cast(scene, axes, beside, np.array([0.0, 0.0, 1.0]), own)
     return bool((behind >= 0).mean() > _ROOM and (before < 0).mean() > _ROOM)
 
 

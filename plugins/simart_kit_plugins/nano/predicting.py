@@ -47,6 +47,7 @@ class PredictedPart:
         confidence: chance of kind and line together; 0..1.
         certainty: how sure it is that this moves, and moves so, as parts of its shape do; 0..1.
         choices: what is said of all its joints, where that is kept.
+        reasons: for its joint, where it is not the network's.
     """
 
     pieces: IntArray
@@ -61,6 +62,7 @@ class PredictedPart:
     confidence: float
     certainty: float
     choices: Choices | None = None
+    reasons: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -53,6 +53,7 @@ def of_network(said: Prediction, face_part: IntArray, seen: MeshCloud) -> list[P
     for number in kept:
         part = said.parts[number - 1]
         joint = joint_of(part, seen)
+        joint = replace(joint, evidence=part.reasons or joint.evidence)
         guess = PartGuess(clean_name(part.label or "part"), label=part.label, score=part.certainty)
         parent = place.get(part.parent)
         proposals.append(Proposal(face_part == number, guess, joint, parent, part.choices))

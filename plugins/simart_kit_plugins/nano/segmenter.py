@@ -86,6 +86,7 @@ class Nano(Segmenter):
         from .predicting import predict
         from .proposals import of_geometry, with_body
         from .showing import evidence
+        from .sliding_leaves import with_slides
         from .stored_model import read_model, shipped_folder
         from .trusting import enough, settled
 
@@ -109,6 +110,8 @@ class Nano(Segmenter):
         elif asked and not at_once:
             geometry = of_geometry(mesh, self.seed)
         bar = enough(said, self.options.least, seen.skin, alone=asked and moves and not geometry)
+        if self.options.pool and not seen.skin:
+            said = with_slides(mesh, said, seen, self.options.least, doubtful=bar)
         said = settled(said, bar)
         fronts = with_body(mesh, geometry) if seen.skin else []
         if fronts or not moves:
