@@ -135,6 +135,7 @@ class Nano(Segmenter):
     ) -> Segmentation:
         from .hardware import with_hardware
         from .honouring import chosen, rejoined
+        from .placing import placed
         from .pooling import pooled
         from .proposals import of_network, with_body
         from .rotors import with_rotors
@@ -143,6 +144,7 @@ class Nano(Segmenter):
 
         if spec is None:
             geometry = heeded(said, geometry, seen.face_piece, mesh.face_areas)
+            geometry = placed(mesh, geometry, said, seen)
         proposals = with_travel(mesh, of_network(said, said.piece_part[seen.face_piece], seen))
         if self.options.pool:
             proposals = with_rotors(mesh, proposals, geometry)
