@@ -76,8 +76,8 @@ class _Surface:
         if not able:
             return None
         points = sample_faces(mesh.triangles[faces], _POINTS, np.random.default_rng(0))[1]
-        apart = {k: _distances(points, self._points[inside][around == k]) for k in able}
-        rest = _distances(points, self._points[inside][around == -1])
+        apart = {k: distances(points, self._points[inside][around == k]) for k in able}
+        rest = distances(points, self._points[inside][around == -1])
         best = min(able, key=lambda k: float(np.minimum(apart[k], near).sum()))
         if apart[best].min() > near or np.mean(apart[best] < rest) < _ALONG:
             return None
@@ -86,7 +86,7 @@ class _Surface:
         return best if held and _goes_along(mesh, self._proposals[best], faces) else None
 
 
-def _distances(points: FloatArray, others: FloatArray) -> FloatArray:
+def distances(points: FloatArray, others: FloatArray) -> FloatArray:
     """(N,) distance of points to the nearest of others; infinite where there are none."""
     from scipy.spatial import cKDTree
 

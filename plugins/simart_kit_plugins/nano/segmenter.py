@@ -135,6 +135,7 @@ class Nano(Segmenter):
     ) -> Segmentation:
         from .hardware import with_hardware
         from .honouring import chosen, rejoined
+        from .joining import joined
         from .placing import placed
         from .pooling import pooled
         from .proposals import of_network, with_body
@@ -151,7 +152,7 @@ class Nano(Segmenter):
             # Borders and lines by geometry are exact, but who knows the object finds more of it.
             known = leads(said, proposals, geometry)
             first, second = (proposals, geometry) if known else (geometry, proposals)
-            both = pooled(mesh, first, second, known=known)
+            both = joined(mesh, pooled(mesh, first, second, known=known))
             proposals = with_hardware(mesh, seen.face_piece, both)
         if spec is not None:
             proposals = chosen(mesh, said, seen, proposals, spec, self.seed)
