@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence, Set
 from dataclasses import replace
 
+from simart_kit.arrays import FloatArray
+
 from .contact import Contacts
 from .movers import Mover
 from .scene import FACINGS, Scene
@@ -17,12 +19,14 @@ Finder = Callable[[Scene, Contacts, Set[int]], list[Mover]]
 
 def ahead(scene: Scene, side: str) -> Scene:
     """The same pieces in a frame turned about the vertical, whose front is this side."""
-    if side == "front":
-        return scene
-    turn = FACINGS["front"].T @ FACINGS[side]
-    surface = scene.surface
-    turned = replace(surface, vertices=surface.vertices @ turn.T, from_asset=turn @ surface.from_asset)
-    return replace(scene, surface=turned)
+    return scene if side == "front" else turned(scene, FACINGS[side])
+
+
+def turned(scene: Scene, axes: FloatArray) -> Scene:
+    """The same pieces in a frame in which (3, 3) rows across, up and out are those of the front."""
+    turn, surface = FACINGS["front"].T @ axes, scene.surface
+    vertices, from_asset = surface.vertices @ turn.T, turn @ surface.from_asset
+    return replace(scene, surface=replace(surface, vertices=vertices, from_asset=from_asset))
 
 
 def faced(scene: Scene, fronts: Sequence[Mover]) -> list[Scene]:

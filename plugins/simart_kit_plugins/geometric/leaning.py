@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,10 +9,11 @@ import numpy as np
 from simart_kit.arrays import FloatArray, vec3
 from simart_kit.asset import Joint, Limits
 
+from .facing import turned
 from .fronts import PANEL, SMALLEST, thin
 from .sashes import crosses, room_beside, with_room
-from .scene import FACINGS, Scene, make_scene
-from .views import view_part
+from .scene import Scene, make_scene
+from .views import View, view_part
 
 if TYPE_CHECKING:
     from simart_kit import Mesh
@@ -39,9 +39,17 @@ def sliding_across(mesh: Mesh, faces: BoolArray) -> Joint | None:
     normal = _normal(scene)
     if normal is None or abs(normal[2]) > _LYING or np.abs(normal[:2]).min() > _AJAR:
         return None
-    scene = _upright(scene, normal)
-    view = view_part(scene, _LEAF, ("front", "back"))
-    if view.handle is None or not thin(view.box) or (view.box.size[:2] < SMALLEST).any():
+    axes = _axes(normal)
+    if (np.ptp(scene.points_of(_LEAF) @ axes[:2].T, axis=0) < SMALLEST).any():
+        return None
+    upright = turned(scene, axes)
+    slides = (_slide(upright, view_part(upright, _LEAF, (side,))) for side in ("front", "back"))
+    return next((joint for joint in slides if joint is not None), None)
+
+
+def _slide(scene: Scene, view: View) -> Joint | None:
+    """The joint of the leaf, in the asset's frame, if it is taken hold of from this side."""
+    if view.handle is None or not thin(view.box):
         return None
     side = room_beside(scene, view.axes, view.box, (_LEAF,))
     if not side or not crosses(view.handle.size, view.handle_place[0] * side):
@@ -50,17 +58,14 @@ def sliding_across(mesh: Mesh, faces: BoolArray) -> Joint | None:
     if way is None or way[0].axis[0] != side:
         return None
     candidate, confidence, reasons = way
-    origin = scene.points_to_asset((candidate.origin @ view.axes)[None])[0]
-    axis = scene.vector_to_asset(candidate.axis @ view.axes)
-    limits = Limits(0.0, candidate.upper * scene.size)
     return Joint(
         "joint",
         "prismatic",
         "body",
         "part",
-        vec3(origin),
-        vec3(axis),
-        limits,
+        vec3(scene.points_to_asset((candidate.origin @ view.axes)[None])[0]),
+        vec3(scene.vector_to_asset(candidate.axis @ view.axes)),
+        Limits(0.0, candidate.upper * scene.size),
         confidence=confidence,
         evidence=reasons,
     )
@@ -75,11 +80,8 @@ def _normal(scene: Scene) -> FloatArray | None:
     return np.asarray(normal) if flat > PANEL * areas.sum() else None
 
 
-def _upright(scene: Scene, normal: FloatArray) -> Scene:
-    """The scene turned so that a direction, which is not vertical, is that of the front."""
+def _axes(normal: FloatArray) -> FloatArray:
+    """(3, 3) rows across, up and out of what faces along a direction that is not vertical."""
     across = np.cross([0.0, 0.0, 1.0], normal)
     across /= np.linalg.norm(across)
-    turn = FACINGS["front"].T @ np.stack([across, np.cross(normal, across), normal])
-    surface = scene.surface
-    turned = replace(surface, vertices=surface.vertices @ turn.T, from_asset=turn @ surface.from_asset)
-    return replace(scene, surface=turned)
+    return np.stack([across, np.cross(normal, across), normal])

@@ -57,7 +57,9 @@ class View:
 def view_part(scene: Scene, part: int, sides: Sequence[str] = tuple(FACINGS)) -> View:
     """See a part from that of some sides where most of it shows."""
     faces = scene.faces_of((part,))
-    facing = max(sides, key=lambda name: shown(scene, FACINGS[name], part))
+    facing = sides[0]
+    if len(sides) > 1:
+        facing = max(sides, key=lambda name: shown(scene, FACINGS[name], part))
     axes = FACINGS[facing]
     corners = scene.triangles[faces] @ axes.T
     front, ajar = _front_plane(scene, axes, faces, corners)
