@@ -185,6 +185,17 @@ class TestDoors:
         assert way.max() > 0.1
         assert way.min() > -0.03
 
+    def test_a_deep_lid_turns_about_the_seam_below_it(self) -> None:
+        walls = [
+            box((-0.3, 0.3), (-0.2, 0.2), (0.0, BOARD)),
+            box((-0.3, 0.3), (-0.2, -0.2 + BOARD), (BOARD, 0.3)),
+            box((-0.3, 0.3), (0.2 - BOARD, 0.2), (BOARD, 0.3)),
+            box((-0.3, -0.3 + BOARD), (-0.2 + BOARD, 0.2 - BOARD), (BOARD, 0.3)),
+            box((0.3 - BOARD, 0.3), (-0.2 + BOARD, 0.2 - BOARD), (BOARD, 0.3)),
+        ]
+        lid = box((-0.3, 0.3), (-0.2, 0.2), (0.302, 0.4))
+        assert_hinge(found([*walls, lid]).joint("lid"), (0.0, 0.2, 0.302), "x")
+
     def test_doors_open_by_a_quarter_turn_unless_told(self) -> None:
         mesh = boxes_mesh(OPENING["cabinet"])
         segmentation = checked(Geometric().segment(mesh), mesh)

@@ -259,12 +259,16 @@ def _deepened(scene: Scene, view: View, choice: Choice) -> Choice:
 
 
 def _deep_enough(scene: Scene, view: View, hinge: Candidate) -> Candidate:
-    """The hinge in the middle, front or back of the panel's thickness: the first that opens most freely."""
+    """The hinge in the middle, front or back of the panel's thickness: the first that opens most freely.
+
+    A lid is tried at its lower side first: that is where it meets what it closes.
+    """
     mine = scene.labels == view.part
     sweep = Sweep(scene.vertices @ view.axes.T, scene.faces[mine], scene.faces[~mine])
     stops = np.linspace(0.05, 1.0, 20) * hinge.upper
     lower, upper = _thickness(scene, view, hinge)
-    depths = ((lower + upper) / 2, upper, lower)
+    middle = (lower + upper) / 2
+    depths = (lower, middle, upper) if view.facing == "top" else (middle, upper, lower)
     tried = [at_depth(hinge, float(w)) for w in depths]
     shares = [float(sweep.blocked(_turning(one), stops)[-1]) for one in tried]
     # An inset door that turns about its middle cuts into its frame with a narrow strip, a percent of it.
