@@ -78,7 +78,7 @@ def stops(joint: Joint, free: FreeRange, least: float) -> bool:
     return free.travel < max(least * wanted(joint), LEAST_TRAVEL)
 
 
-def sunk(asset: Asset, joint: Joint, steps: int, seed: int) -> Joint | None:
+def sunk(asset: Asset, joint: Joint, steps: int, seed: int, held: Collection[str] = ()) -> Joint | None:
     """A joint that moves something small into the part that carries it, as a button without a hole.
 
     It is small beside the object, or its label says that it is pressed; slides by no more than its own length
@@ -91,6 +91,7 @@ def sunk(asset: Asset, joint: Joint, steps: int, seed: int) -> Joint | None:
         joint: with limits.
         steps: stops on the way to each limit.
         seed: of the sampling.
+        held: parts that are held where they are: on its carrier, they are one with that.
 
     Returns:
         The joint with the travel that it may have; None if it may have none.
@@ -110,9 +111,15 @@ def sunk(asset: Asset, joint: Joint, steps: int, seed: int) -> Joint | None:
         joint = _shortened(joint, float(most))
     if wanted(joint) > most or size > (_MOST if named else _HELD) * mesh.diagonal:
         return None
-    carrier = asset.face_part == asset.part_index(joint.parent)
+    fixed = [name for name in held if name != joint.child and _parent(asset, name) == joint.parent]
+    carrier = np.isin(asset.face_part, [asset.part_index(name) for name in (joint.parent, *fixed)])
     free = swept(asset, joint, {}, carrier, steps, seed).travel == wanted(joint)
     return joint if free else None
+
+
+def _parent(asset: Asset, part: str) -> str | None:
+    joint = asset.joint_to(part)
+    return None if joint is None else joint.parent
 
 
 def _within(joint: Joint, points: FloatArray) -> bool:

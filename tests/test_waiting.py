@@ -151,6 +151,25 @@ class TestButton:
         assert joint.limits is not None
         assert joint.limits.upper < 0.5 * travel
 
+    def on_a_plate(self, plate: sk.Joint) -> sk.Asset:
+        """A button of the wall's, on a plate between ledges that was taken for a part, too."""
+        ledges: list[Bounds] = [((-0.5, -0.04, z), (0.5, -0.02, z + 0.1)) for z in (-0.5, 0.4)]
+        board: Bounds = ((-0.5, -0.02, -0.5), (0.5, 0.0, 0.5))
+        button: Bounds = ((-0.05, -0.06, -0.05), (0.05, -0.02, 0.05))
+        parts = {"case": [self.WALL, *ledges], "button": [button], "plate": [board]}
+        return made(parts, slide("button", (0, 1, 0), 0.03), plate)
+
+    def test_it_sinks_into_what_is_held_fixed_on_its_wall(self) -> None:
+        asset = self.on_a_plate(slide("plate", (0, 1, 0), 0.4))
+        button, plate = Sweep().modify(asset).joints
+        assert button == asset.joint("button_slide")
+        assert (plate.kind, len(plate.flags)) == ("fixed", 1)
+        assert [len(joint.flags) for joint in FLAGGING.modify(asset).joints] == [1, 1]
+
+    def test_not_into_what_moves_on_its_wall(self) -> None:
+        button, plate = FLAGGING.modify(self.on_a_plate(slide("plate", (1, 0, 0), 0.2))).joints
+        assert (len(button.flags), len(plate.flags)) == (1, 0)
+
     def test_what_is_called_a_touchpad_may_be_large(self) -> None:
         asset = self.pressed(0.1, 0.5)
         named = asset.with_parts({"button": replace(asset.part("button"), label="touchpad")})

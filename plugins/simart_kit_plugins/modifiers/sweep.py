@@ -89,7 +89,16 @@ class Sweep(Modifier):
 
         ranges = free_ranges(asset, self.options.steps, self.seed, beside)
         stopped = [n for n, free in ranges.items() if stops(asset.joint(n), free, self.options.least)]
-        return ranges, {n: sunk(asset, asset.joint(n), self.options.steps, self.seed) for n in stopped}
+        look = (self.options.steps, self.seed)
+        pressed = {name: sunk(asset, asset.joint(name), *look) for name in stopped}
+        held = [asset.joint(name).child for name, joint in pressed.items() if joint is None]
+        if self.options.stuck == "fix":
+            # Keys lie on a plate that was taken for a part: held fixed, it is one with what carries them.
+            for name in [name for name, joint in pressed.items() if joint is None and len(held) > 1]:
+                pressed[name] = sunk(asset, asset.joint(name), *look, held)
+                if pressed[name] is not None:
+                    held.remove(asset.joint(name).child)
+        return ranges, pressed
 
     def _settled(
         self, asset: Asset, ranges: Mapping[str, FreeRange], pressed: Mapping[str, Joint | None]
