@@ -91,7 +91,7 @@ def sunk(asset: Asset, joint: Joint, steps: int, seed: int, held: Collection[str
         joint: with limits.
         steps: stops on the way to each limit.
         seed: of the sampling.
-        held: parts that are held where they are: on its carrier, they are one with that.
+        held: other parts that are held where they are: on its carrier, they are one with that.
 
     Returns:
         The joint with the travel that it may have; None if it may have none.
@@ -111,7 +111,7 @@ def sunk(asset: Asset, joint: Joint, steps: int, seed: int, held: Collection[str
         joint = _shortened(joint, float(most))
     if wanted(joint) > most or size > (_MOST if named else _HELD) * mesh.diagonal:
         return None
-    fixed = [name for name in held if name != joint.child and _parent(asset, name) == joint.parent]
+    fixed = [name for name in held if _parent(asset, name) == joint.parent]
     carrier = np.isin(asset.face_part, [asset.part_index(name) for name in (joint.parent, *fixed)])
     free = swept(asset, joint, {}, carrier, steps, seed).travel == wanted(joint)
     return joint if free else None

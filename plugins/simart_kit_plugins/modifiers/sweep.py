@@ -91,13 +91,14 @@ class Sweep(Modifier):
         stopped = [n for n, free in ranges.items() if stops(asset.joint(n), free, self.options.least)]
         look = (self.options.steps, self.seed)
         pressed = {name: sunk(asset, asset.joint(name), *look) for name in stopped}
-        held = [asset.joint(name).child for name, joint in pressed.items() if joint is None]
-        if self.options.stuck == "fix":
-            # Keys lie on a plate that was taken for a part: held fixed, it is one with what carries them.
-            for name in [name for name, joint in pressed.items() if joint is None and len(held) > 1]:
-                pressed[name] = sunk(asset, asset.joint(name), *look, held)
-                if pressed[name] is not None:
-                    held.remove(asset.joint(name).child)
+        held = {name: asset.joint(name).child for name, joint in pressed.items() if joint is None}
+        # Keys lie on a plate that was taken for a part: held fixed, it is one with what carries them.
+        for name in list(held) if self.options.stuck == "fix" else ():
+            others = [child for other, child in held.items() if other != name]
+            sinks = sunk(asset, asset.joint(name), *look, others) if others else None
+            if sinks is not None:
+                pressed[name] = sinks
+                del held[name]
         return ranges, pressed
 
     def _settled(
