@@ -63,7 +63,7 @@ def _end(whole: Sequence[int], k: int) -> int:
 
 def _pairs(mesh: Mesh, proposals: Sequence[Proposal]) -> Iterator[tuple[int, int]]:
     """Proposals that are pieces of one."""
-    for label in {proposal.guess.label for proposal in proposals}:
+    for label in dict.fromkeys(proposal.guess.label for proposal in proposals):
         slides = [
             k for k, p in enumerate(proposals) if p.joint.kind == "prismatic" and p.guess.label == label
         ]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .proposals import Proposal, joint_of, overlap
+from .proposals import SAME, Proposal, along, joint_of, overlap
 
 if TYPE_CHECKING:
     from simart_kit import Joint, Mesh
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 # has it: nearer lines are one, which geometry has exactly, and farther ones are at other edges, which it
 # confuses in what it does not recognise [shares of the diagonal].
 _SURE, _ELSEWHERE, _AT_OTHER_EDGES = 0.8, 0.012, 0.1
-# Two are of one part from this overlap on, and along one axis from this cosine on.
-_SAME, _ALONG = 0.5, np.cos(np.deg2rad(15.0))
 
 
 def placed(mesh: Mesh, geometry: Sequence[Proposal], said: Prediction, seen: MeshCloud) -> list[Proposal]:
@@ -44,8 +42,7 @@ def placed(mesh: Mesh, geometry: Sequence[Proposal], said: Prediction, seen: Mes
 
     def line(one: Proposal) -> Joint:
         for faces, joint in told:
-            alike = one.joint.kind == "revolute" and abs(np.dot(one.joint.axis, joint.axis)) > _ALONG
-            if alike and overlap(mesh, one.faces, faces) >= _SAME:
+            if along(one.joint, joint) and overlap(mesh, one.faces, faces) >= SAME:
                 return _at(one.joint, joint, _ELSEWHERE * mesh.diagonal, farthest * mesh.diagonal)
         return one.joint
 

@@ -10,14 +10,13 @@ import numpy as np
 
 from simart_kit.sweeping import Sweep, free_range
 
-from .proposals import Proposal, only, overlap
+from .proposals import SAME, Proposal, along, only, overlap
 
 if TYPE_CHECKING:
     from simart_kit import Joint, Mesh
     from simart_kit.arrays import BoolArray, FloatArray
 
-# Two proposals are of one part from this overlap on; one that loses more than this share is dropped.
-_SAME, _LOST = 0.5, 0.3
+_LOST = 0.3  # a proposal that loses more than this share is dropped
 # Of drawers lumped together each has this share of the lump at least, and this share of it lies there.
 _SHARE, _WITHIN = 0.1, 0.75
 # Joints of one kind whose axes are closer than this are not compared [cosine].
@@ -59,7 +58,7 @@ def pooled(
     for proposal in kept:
         taken |= proposal.faces
     for k, proposal in enumerate(second):
-        twin = next((r for r, p in enumerate(kept) if overlap(mesh, p.faces, proposal.faces) >= _SAME), None)
+        twin = next((r for r, p in enumerate(kept) if overlap(mesh, p.faces, proposal.faces) >= SAME), None)
         if twin is not None:
             place["second", k] = twin
             kept[twin] = _better(mesh, kept[twin], proposal)
@@ -96,7 +95,7 @@ def _lumped(areas: FloatArray, one: Proposal, others: Sequence[Proposal]) -> boo
         for other in others
         if other.joint.kind == "prismatic" and _lies_in(areas, other, one)
     ]
-    return sum(share >= _SHARE for share in shares) > 1 and sum(shares) >= _SAME
+    return sum(share >= _SHARE for share in shares) > 1 and sum(shares) >= SAME
 
 
 def _lies_in(areas: FloatArray, one: Proposal, other: Proposal) -> bool:
@@ -131,8 +130,7 @@ def _turns(one: Proposal, other: Proposal) -> bool:
 def _exact(mesh: Mesh, one: Proposal, others: Sequence[Proposal]) -> Proposal:
     """The first proposal, with the joint of the other that has the same part move much alike."""
     for other in others:
-        alike = one.joint.kind == other.joint.kind and abs(np.dot(one.joint.axis, other.joint.axis)) > _ALIKE
-        if alike and overlap(mesh, one.faces, other.faces) >= _SAME:
+        if along(one.joint, other.joint) and overlap(mesh, one.faces, other.faces) >= SAME:
             return replace(one, joint=other.joint)
     return one
 

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from .meshes import MeshCloud
     from .predicting import PredictedPart, Prediction
 
+SAME = 0.5  # overlap from which on two proposals are of one part
+_ALONG = np.cos(np.deg2rad(15.0))  # of axes that are much the same
 SUFFIX = {"revolute": "hinge", "prismatic": "slide", "continuous": "spin"}
 
 
@@ -145,6 +147,11 @@ def segmentation_of(
     ]
     body = PartGuess(names[0], label="body", material=material(""))
     return Segmentation(face_part, (body, *guesses), joints=tuple(joints))
+
+
+def along(one: Joint, other: Joint) -> bool:
+    """Whether two joints are of one kind, and along much the same axis, whichever way."""
+    return one.kind == other.kind and bool(abs(np.dot(one.axis, other.axis)) > _ALONG)
 
 
 def overlap(mesh: Mesh, one: BoolArray, other: BoolArray) -> float:

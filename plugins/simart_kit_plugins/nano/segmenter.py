@@ -110,7 +110,7 @@ class Nano(Segmenter):
         elif asked and not at_once:
             geometry = of_geometry(mesh, self.seed)
         bar = enough(said, self.options.least, seen.skin, alone=asked and moves and not geometry)
-        if self.options.pool and not seen.skin:
+        if self.options.pool and moves and not seen.skin:
             said = with_slides(mesh, said, seen, self.options.least, doubtful=bar)
         said = settled(said, bar)
         fronts = with_body(mesh, geometry) if seen.skin else []
