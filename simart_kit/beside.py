@@ -33,6 +33,7 @@ class Beside:
     def __init__(self, wanted: bool = True, *, worker: tuple[str, ...] = _WORKER) -> None:
         self._process = _started(worker) if wanted and usable_cores() > 1 else None
         self._talking = ThreadPoolExecutor(1)  # starts no thread before there is something to say
+        self._behind: list[Later[Any]] = []
 
     @property
     def helps(self) -> bool:
@@ -59,14 +60,26 @@ class Beside:
             *args: as they are now; whatever can be pickled.
             **kwargs: the same.
         """
-        here = partial(function, *args, **kwargs)
+        later = self._planned(partial(function, *args, **kwargs))
+        if not any(waiting.runs for waiting in self._behind):  # that takes long: this process is faster
+            for planned in (later, *self._behind):
+                planned.begin()
+        return later
+
+    def ask_behind(self, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> Later[T]:
+        """As `ask`, but what is asked for next comes first: for what takes long, and is not wanted soon."""
+        later = self._planned(partial(function, *args, **kwargs))
+        self._behind.append(later)
+        return later
+
+    def _planned(self, here: Callable[[], T]) -> Later[T]:
         if self._process is None:
             return Later(here, None)
         try:
             question = pickle.dumps(here, pickle.HIGHEST_PROTOCOL)
         except (pickle.PicklingError, AttributeError, TypeError):  # a function or a value of the caller's own
             return Later(here, None)
-        return Later(here, self._talking.submit(_answer, self._process, question))
+        return Later(here, partial(self._talking.submit, _answer, self._process, question))
 
 
 class Later(Generic[T]):
@@ -74,17 +87,28 @@ class Later(Generic[T]):
 
     Args:
         here: calls it in this process.
-        there: its answer there; None where nobody calls it.
+        there: asks for it there; None where nobody calls it.
     """
 
-    def __init__(self, here: Callable[[], T], there: Future[T] | None) -> None:
+    def __init__(self, here: Callable[[], T], there: Callable[[], Future[T]] | None) -> None:
         self._here, self._there = here, there
+        self._answer: Future[T] | None = None
+
+    @property
+    def runs(self) -> bool:
+        """Whether it was asked for there, and the answer is not here yet."""
+        return self._answer is not None and not self._answer.done()
+
+    def begin(self) -> None:
+        """Ask for it there, unless that is done."""
+        if self._there is not None and self._answer is None:
+            self._answer = self._there()
 
     def result(self) -> T:
-        """What it returns, or raises. What the other process could not do is done now."""
-        if self._there is None or isinstance(self._there.exception(), _EndedError):
+        """What it returns, or raises; done now where the other process was not asked, or could not do it."""
+        if self._answer is None or isinstance(self._answer.exception(), _EndedError):
             return self._here()
-        return self._there.result()
+        return self._answer.result()
 
 
 class _EndedError(Exception):

@@ -22,6 +22,7 @@ from .loading import Source, read_source, source_path
 from .mesh import Note, UpAxis
 from .output import PROVENANCE, commit, forget_failure, hashes, keep_failure, left_over, staging
 from .physics_overrides import overridden
+from .picturing import Picture, begun, finished
 from .plugins import Plugins
 from .provenance import provenance, write_json
 from .recipe import Recipe, build, build_checks, check_extras, load_recipe
@@ -109,9 +110,10 @@ def convert(
             with Beside(len(loaded.mesh.faces) >= _MANY) as beside:
                 segmentation = _segment(runner, plugins, resolved, loaded, wishes)
                 asset = _articulate(runner, plugins, resolved, loaded, segmentation, name, floating, wishes)
-                asset = _modify(runner, plugins, resolved, asset, loaded.stated is not None, beside)
+                stated = loaded.stated is not None
+                asset, picture = _modify(runner, plugins, resolved, asset, stated, beside)
                 asset = asset if wishes is None else with_verdicts(asset, wishes)
-                report, mains = _write(runner, plugins, resolved, asset, beside)
+                report, mains = _write(runner, plugins, resolved, asset, picture, beside)
         arguments: dict[str, Any] = {"name": name, "up": up, "unit": unit, "floating": floating}
         arguments["spec"] = None if wishes is None else wishes.table()
         return _finish(runner, plugins, loaded, report, mains, folder, arguments)
@@ -163,16 +165,24 @@ def _articulate(
 
 def _modify(
     runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset, stated: bool, beside: Beside
-) -> Asset:
-    kept = []
-    for use in recipe.modify:
-        stage, registration = build(use, Modifier, plugins, recipe.seed)
+) -> tuple[Asset, Picture | None]:
+    """The asset, and its picture, begun before the last stage of those that leave joints as they are."""
+    picture, kept = None, []
+    stages = [(use.use, *build(use, Modifier, plugins, recipe.seed)) for use in recipe.modify]
+    leaving = [stage for _, stage, _ in stages if not stage.corrects_joints]
+    for use, stage, registration in stages:
         if stated and stage.corrects_joints:
-            kept.append(use.use)
-        else:
-            asset = runner.stage("modify", registration, _modified, asset, stage, beside)
+            kept.append(use)
+            continue
+        if beside.helps and stage in leaving[-1:]:
+            picture = begun(asset, _preview(runner), beside)
+        asset = runner.stage("modify", registration, _modified, asset, stage, beside)
     text = f"the file states its joints, so they are left as they are by {', '.join(kept)}"
-    return asset.with_notes("load", "info", [text] if kept else [])
+    return asset.with_notes("load", "info", [text] if kept else []), picture
+
+
+def _preview(runner: Runner) -> Path:
+    return runner.run.folder.resolve() / "preview.png"
 
 
 def _modified(asset: Asset, modifier: Modifier, beside: Beside) -> Asset:
@@ -183,14 +193,15 @@ def _modified(asset: Asset, modifier: Modifier, beside: Beside) -> Asset:
 
 
 def _write(
-    runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset, beside: Beside
+    runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset, picture: Picture | None, beside: Beside
 ) -> tuple[Report, dict[str, Path]]:
     work = runner.run.folder
     save_asset(asset, work)
     if beside.helps:
-        runner.begin("preview", "preview", beside.ask(render.draw_saved, work.resolve()).result)
+        drawn = finished(picture, asset, _preview(runner), beside)
+        runner.begin("preview", "preview", drawn.written.result)
     else:
-        runner.call("preview", "preview", render.write_preview, asset, work / "preview.png")
+        runner.call("preview", "preview", render.write_preview, asset, _preview(runner))
     mains, unsupported = export_all(runner, plugins, recipe, asset)
     checks = runner.call("check", "checks", run_checks, build_checks(recipe, plugins), Subject(mains, asset))
     runner.settle()

@@ -98,13 +98,6 @@ def write_preview(asset: Asset, path: Path) -> Path:
     return path
 
 
-def draw_saved(folder: Path) -> None:
-    """Write `preview.png` beside the asset that is saved in a folder."""
-    from .asset_io import load_asset
-
-    write_preview(load_asset(folder), folder / "preview.png")
-
-
 def _over(linear: FloatArray, background: Color | None) -> FloatArray:
     """(N, 4) linear RGBA of (N, 4) premultiplied ones before a background, or none."""
     color, opacity = linear[:, :3], linear[:, 3:]

@@ -19,7 +19,7 @@ from simart_kit import beside
 from simart_kit.asset_io import save_asset
 from simart_kit.beside import ALONE, Beside, modify_by
 from simart_kit.drawing.preview import preview_png
-from simart_kit.render import draw_saved
+from simart_kit.render import write_preview
 from simart_kit.testing.meshes import cabinet_asset, chain_asset
 
 
@@ -55,6 +55,28 @@ def test_what_is_asked_goes_on_while_this_process_does(helper: Beside) -> None:
     assert time.perf_counter() - start < 0.8
     later.result()
     assert time.perf_counter() - start >= 1.0
+
+
+class TestWhatIsNotWantedSoon:
+    def test_is_called_behind_what_is_asked_for_next(self, helper: Beside) -> None:
+        late = helper.ask_behind(time.monotonic)
+        assert not late.runs
+        assert helper.ask(time.monotonic).result() < late.result()
+
+    def test_is_called_there_once_that_is_done(self, helper: Beside) -> None:
+        late = helper.ask_behind(os.getpid)
+        assert late.result() == os.getpid()  # nothing else was asked for
+        late, there = helper.ask_behind(os.getpid), helper.ask(os.getpid).result()
+        assert late.result() == there != os.getpid()
+
+    def test_keeps_nobody_waiting_while_it_goes_on(self, helper: Beside) -> None:
+        late = helper.ask_behind(time.sleep, 1.0)
+        there = helper.ask(os.getpid).result()
+        assert late.runs
+        assert helper.ask(os.getpid).result() == os.getpid()
+        assert late.runs
+        late.result()
+        assert helper.ask(os.getpid).result() == there
 
 
 def test_what_a_function_prints_is_no_answer(helper: Beside) -> None:
@@ -116,8 +138,7 @@ def test_leaving_early_ends_the_process(tmp_path: Path) -> None:
 class TestWhatIsLeftToIt:
     def test_a_preview_is_the_same_picture(self, helper: Beside, tmp_path: Path) -> None:
         asset = cabinet_asset()
-        save_asset(asset, tmp_path)
-        helper.ask(draw_saved, tmp_path).result()
+        helper.ask(write_preview, asset, tmp_path / "preview.png").result()
         assert (tmp_path / "preview.png").read_bytes() == preview_png(asset)
 
     @pytest.mark.parametrize("stage", [Collision(), Sweep()], ids=lambda stage: stage.name)

@@ -46,7 +46,7 @@ class Shaper:
         if left.work <= 0:
             return {}
         mine, theirs = ({name: self._surfaces[name] for name in row if name in names} for row in self._rows)
-        if theirs and self._beside.helps:
+        if self._beside.helps:  # asked even of an empty row: what waits behind it begins
             sent = {name: Surface(s.vertices, s.faces, s.most) for name, s in theirs.items()}
             later = self._beside.ask(shapes_of, sent, self._mode, left)
             found = shapes_of(mine, self._mode, left) | later.result()
