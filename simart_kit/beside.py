@@ -26,14 +26,22 @@ class Beside:
     The process is there from the start, so that what it imports is too. Use it as a context: leaving ends it.
 
     Args:
-        wanted: whether there shall be a process at all.
+        wanted: whether there shall be a process at once, or not before `start`.
         worker: command that answers as `beside_worker` does.
     """
 
     def __init__(self, wanted: bool = True, *, worker: tuple[str, ...] = _WORKER) -> None:
-        self._process = _started(worker) if wanted and usable_cores() > 1 else None
+        self._worker = worker
+        self._process: subprocess.Popen[bytes] | None = None
+        if wanted:
+            self.start()
         self._talking = ThreadPoolExecutor(1)  # starts no thread before there is something to say
         self._behind: list[Later[Any]] = []
+
+    def start(self) -> None:
+        """Have a process, if there are cores for it, unless there is one."""
+        if self._process is None and usable_cores() > 1:
+            self._process = _started(self._worker)
 
     @property
     def helps(self) -> bool:

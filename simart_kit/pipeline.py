@@ -19,7 +19,7 @@ from .checks.subject import Subject
 from .errors import SimartKitError, StageError
 from .exports import export_all
 from .loading import Source, read_source, source_path
-from .mesh import Note, UpAxis
+from .mesh import Mesh, Note, UpAxis
 from .output import PROVENANCE, commit, forget_failure, hashes, keep_failure, left_over, staging
 from .physics_overrides import overridden
 from .picturing import Picture, begun, finished
@@ -36,7 +36,9 @@ from .spec.values import Spec
 from .spec.verdicts import with_verdicts
 from .stages import JointPredictor, Modifier, Prediction, Segmentation, Segmenter
 
-_MANY = 5_000  # faces from which on a process beside this one saves more than its start takes
+# From so many faces on a process beside this one saves more than its start takes, and files of so many bytes
+# hold as many, if they hold surfaces: it is there then when they are read.
+_MANY, _LARGE = 5_000, 200_000
 
 
 @dataclass(frozen=True)
@@ -106,9 +108,11 @@ def convert(
         runner = Runner(Run(name, path, resolved, work, record), plugins)
         with _failures_kept(runner, folder):
             runner.tell("run_started")
-            loaded = _load(runner, plugins, path, up, unit)
-            with Beside(len(loaded.mesh.faces) >= _MANY) as beside:
-                segmentation = _segment(runner, plugins, resolved, loaded, wishes)
+            with Beside(path.stat().st_size >= _LARGE) as beside:
+                loaded = _load(runner, plugins, path, up, unit)
+                if len(loaded.mesh.faces) >= _MANY:
+                    beside.start()
+                segmentation = _segment(runner, plugins, resolved, loaded, wishes, beside)
                 asset = _articulate(runner, plugins, resolved, loaded, segmentation, name, floating, wishes)
                 stated = loaded.stated is not None
                 asset, picture = _modify(runner, plugins, resolved, asset, stated, beside)
@@ -126,15 +130,16 @@ def _load(
 
 
 def _segment(
-    runner: Runner, plugins: Plugins, recipe: Recipe, loaded: Source, spec: Spec | None
+    runner: Runner, plugins: Plugins, recipe: Recipe, loaded: Source, spec: Spec | None, beside: Beside
 ) -> Segmentation:
+    def segmented(mesh: Mesh) -> Segmentation:
+        return checked(segment_by(stage, mesh, spec, beside), mesh)
+
     if loaded.stated is not None:
         found = runner.call("segment", "stated", lambda stated: stated, loaded.stated)
     else:
         stage, registration = build(recipe.segmenter, Segmenter, plugins, recipe.seed)
-        found = runner.stage(
-            "segment", registration, lambda mesh: checked(segment_by(stage, mesh, spec), mesh), loaded.mesh
-        )
+        found = runner.stage("segment", registration, segmented, loaded.mesh)
     return found if spec is None else runner.call("spec", "parts", with_parts, found, loaded.mesh, spec)
 
 

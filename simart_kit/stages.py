@@ -144,7 +144,7 @@ class Prediction:
 
 
 class Segmenter(Stage):
-    """Finds the parts of a mesh."""
+    """Finds the parts of a mesh; one that takes long may take help, see `spec.protocols.HelpedSegmenter`."""
 
     kind = "segmenter"
 

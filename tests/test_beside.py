@@ -13,6 +13,8 @@ import numpy as np
 import pytest
 from simart_kit_plugins.modifiers.collision import Collision
 from simart_kit_plugins.modifiers.sweep import Sweep
+from simart_kit_plugins.nano.asking import said_by
+from simart_kit_plugins.nano.segmenter import Nano
 
 import simart_kit as sk
 from simart_kit import beside
@@ -20,6 +22,7 @@ from simart_kit.asset_io import save_asset
 from simart_kit.beside import ALONE, Beside, modify_by
 from simart_kit.drawing.preview import preview_png
 from simart_kit.render import write_preview
+from simart_kit.spec.protocols import segment_by
 from simart_kit.testing.meshes import cabinet_asset, chain_asset
 
 
@@ -122,6 +125,15 @@ def test_a_single_core_has_no_process(monkeypatch: pytest.MonkeyPatch, wanted: b
         assert one.ask(os.getpid).result() == os.getpid()
 
 
+def test_a_process_may_be_started_later() -> None:
+    with Beside(False) as one:
+        assert one.ask(os.getpid).result() == os.getpid()
+        one.start()
+        there = one.ask(os.getpid).result()
+        one.start()
+        assert one.ask(os.getpid).result() == there != os.getpid()
+
+
 def test_leaving_early_ends_the_process(tmp_path: Path) -> None:
     note = tmp_path / "note"
     program = (
@@ -165,6 +177,19 @@ class TestWhatIsLeftToIt:
         save_asset(alone, tmp_path / "alone")
         for name in ("asset.json", "parts.npz"):
             assert (tmp_path / "helped" / name).read_bytes() == (tmp_path / "alone" / name).read_bytes()
+
+    def test_a_segmenter_finds_the_same_in_an_object(
+        self, helper: Beside, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        asked: list[object] = []
+        ask = helper.ask
+        monkeypatch.setattr(helper, "ask", lambda *args: asked.append(args[0]) or ask(*args))
+        mesh = cabinet_asset().mesh
+        helped, alone = (segment_by(Nano(), mesh, None, one) for one in (helper, ALONE))
+        assert asked == [said_by]
+        assert np.array_equal(helped.face_part, alone.face_part)
+        assert (helped.joints, helped.notes) == (alone.joints, alone.notes)
+        assert alone.joints
 
     def test_a_modifier_that_takes_no_help_is_asked_as_always(self, helper: Beside) -> None:
         class Remark(sk.Modifier):

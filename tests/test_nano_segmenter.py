@@ -83,6 +83,11 @@ class Told:
     known: Knowledge
     statistics: None = None
 
+    def stand_in(self, patch: pytest.MonkeyPatch) -> None:
+        """Be the model of every folder."""
+        patch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: self)
+        patch.setattr("simart_kit_plugins.nano.stored_model.read_knowledge", lambda folder: self.known)
+
 
 def test_groups_are_the_blocks_of_a_matrix_of_chances_the_surest_first():
     part = np.array([0, 0, 1, 1, 2, 2, 2, 0])
@@ -178,7 +183,7 @@ def test_what_stands_askew_is_read_straight_and_turned_back(monkeypatch, turns, 
     pieces = find_segments(asset.mesh).face_segment
     part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
     model = Told(Oracle(part, slides=False), KNOWN)
-    monkeypatch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: model)
+    model.stand_in(monkeypatch)
     nano = Nano(read_options(Nano, {"model": "any", "pool": False, "votes": 1, "least": 0.0}))
     matrix = np.eye(4)
     matrix[:3, :3] = rotation(np.radians([leans, 0.0, turns]))
@@ -203,7 +208,7 @@ def test_what_the_network_says_becomes_parts_and_joints_in_metres(tmp_path, monk
     pieces = find_segments(asset.mesh).face_segment
     part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
     model = Told(Oracle(part, slides), KNOWN)
-    monkeypatch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: model)
+    model.stand_in(monkeypatch)
     options = read_options(Nano, {"model": "any", "pool": False, "votes": 1, "least": 0.0})
     found = Nano(options).segment(asset.mesh)
     assert [guess.name for guess in found.parts] == ["body", "door", "door_2"]
@@ -277,7 +282,7 @@ def test_parts_that_are_not_sure_enough_stay_with_the_body_and_are_told(monkeypa
     pieces = find_segments(asset.mesh).face_segment
     part = [int(asset.face_part[pieces == k][0]) for k in range(pieces.max() + 1)]
     model = Told(Oracle(part, False), KNOWN)
-    monkeypatch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: model)
+    model.stand_in(monkeypatch)
     found = Nano(read_options(Nano, {"model": "any", "pool": False, "least": 0.9})).segment(asset.mesh)
     assert found.face_part.max() == 0
     assert found.joints == ()
@@ -292,7 +297,7 @@ def test_parts_that_are_not_sure_enough_stay_with_the_body_and_are_told(monkeypa
 def test_the_network_is_alone_where_geometry_is_asked_and_finds_nothing(monkeypatch, pool, found, alone):
     asset = cabinet_asset()
     model = Told(Oracle([0] * 5, False), KNOWN)
-    monkeypatch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: model)
+    model.stand_in(monkeypatch)
     if not found:
         monkeypatch.setattr("simart_kit_plugins.nano.proposals.of_geometry", lambda mesh, seed: [])
     told = []
@@ -310,7 +315,7 @@ def test_the_network_is_alone_where_geometry_is_asked_and_finds_nothing(monkeypa
 def test_of_many_faces_that_stand_still_geometry_is_not_asked(monkeypatch, still, most, asked):
     asset = cabinet_asset()
     model = Told(Oracle([0] * 5, False), Knowledge(materials={}, still=still))
-    monkeypatch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: model)
+    model.stand_in(monkeypatch)
     monkeypatch.setattr("simart_kit_plugins.nano.segmenter._MANY", most)
     calls = []
     monkeypatch.setattr(

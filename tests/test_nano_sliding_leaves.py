@@ -45,7 +45,7 @@ def test_a_leaf_that_surely_moves_slides_where_it_has_room_for_that_alone(
     part = np.zeros(3, dtype=int)
     part[order[1:]] = 1
     model = Told(InDoubt(part, slides=False), KNOWN)
-    monkeypatch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: model)
+    model.stand_in(monkeypatch)
     monkeypatch.setattr("simart_kit_plugins.nano.proposals.of_geometry", lambda mesh, seed: [])
     found = Nano(read_options(Nano, {"model": "any", **options})).segment(mesh)
     assert [joint.kind for joint in found.joints] == kinds

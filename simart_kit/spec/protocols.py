@@ -1,10 +1,11 @@
-"""What a stage may do beyond its one method: take a spec in, and tell how it came to its joints."""
+"""What a stage may do beyond its one method: take a spec or help in, and tell how it came to its joints."""
 
 from __future__ import annotations
 
 from typing import Protocol, runtime_checkable
 
 from ..asset import Joint
+from ..beside import ALONE, Beside
 from ..mesh import Mesh
 from ..stages import JointPredictor, Prediction, Segmentation, Segmenter
 from .values import Spec
@@ -16,6 +17,14 @@ class SpecSegmenter(Protocol):
 
     def segment_to(self, mesh: Mesh, spec: Spec) -> Segmentation:
         """What `segment` says where that is as stated, else what comes nearest to it."""
+
+
+@runtime_checkable
+class HelpedSegmenter(Protocol):
+    """A segmenter that can let another process do some of what takes long."""
+
+    def segment_beside(self, mesh: Mesh, spec: Spec | None, beside: Beside) -> Segmentation:
+        """The same as `segment` gives, or `segment_to` where there is a spec."""
 
 
 @runtime_checkable
@@ -34,8 +43,10 @@ class TellingPredictor(Protocol):
         """What `predict` says, or `predict_to` where there is a spec, and how it came about."""
 
 
-def segment_by(stage: Segmenter, mesh: Mesh, spec: Spec | None) -> Segmentation:
-    """What a segmenter says, and of a spec if it takes one in."""
+def segment_by(stage: Segmenter, mesh: Mesh, spec: Spec | None, beside: Beside = ALONE) -> Segmentation:
+    """What a segmenter says, and of a spec if it takes one in, with help if it takes any."""
+    if isinstance(stage, HelpedSegmenter):
+        return stage.segment_beside(mesh, spec, beside)
     if spec is not None and isinstance(stage, SpecSegmenter):
         return stage.segment_to(mesh, spec)
     return stage.segment(mesh)

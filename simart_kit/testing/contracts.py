@@ -28,6 +28,7 @@ from ..checks.subject import Subject
 from ..errors import BadInputError
 from ..mesh import Mesh
 from ..recipe import read_options
+from ..spec.protocols import HelpedSegmenter, segment_by
 from ..stages import Check, Exporter, JointPredictor, Modifier, PartGuess, Segmentation, Segmenter, Stage
 from . import meshes
 from .export_text import complaints
@@ -129,10 +130,11 @@ class SegmenterContract(StageContract):
         checked(self.make().segment(mesh), mesh)
 
     def test_same_answer_every_time(self) -> None:
-        mesh = self.mesh()
-        one, two = self.make().segment(mesh), self.make().segment(mesh)
+        mesh, stage = self.mesh(), self.make()
+        with Beside(isinstance(stage, HelpedSegmenter)) as another:
+            one, two = stage.segment(mesh), segment_by(self.make(), mesh, None, another)
         assert fingerprint(one) == fingerprint(two), (
-            "make generators with numpy.random.default_rng(self.seed)"
+            "make generators with numpy.random.default_rng(self.seed), and give the same with help"
         )
 
     def test_leaves_the_mesh_alone(self) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -15,6 +14,7 @@ from pydantic import Field
 import simart_kit
 from simart_kit import Note, Segmentation, Segmenter
 from simart_kit.arrays import frozen_ints
+from simart_kit.beside import ALONE, Beside
 
 from .askew import seen_straight
 
@@ -69,7 +69,7 @@ class Nano(Segmenter):
         Raises:
             BadInputError: the weights cannot be read.
         """
-        return seen_straight(mesh, lambda straight: self._segmented(straight, None))
+        return self.segment_beside(mesh, None, ALONE)
 
     def segment_to(self, mesh: Mesh, spec: Spec) -> Segmentation:
         """As `segment`; where a spec states other parts or joints, the likeliest of those that fit.
@@ -77,31 +77,34 @@ class Nano(Segmenter):
         Raises:
             BadInputError: the weights cannot be read.
         """
-        return seen_straight(mesh, lambda straight: self._segmented(straight, spec))
+        return self.segment_beside(mesh, spec, ALONE)
 
-    def _segmented(self, mesh: Mesh, spec: Spec | None) -> Segmentation:
+    def segment_beside(self, mesh: Mesh, spec: Spec | None, beside: Beside) -> Segmentation:
+        """As `segment` or `segment_to`; the network reads in another process, if there is one."""
+        return seen_straight(mesh, lambda straight: self._segmented(straight, spec, beside))
+
+    def _segmented(self, mesh: Mesh, spec: Spec | None, beside: Beside) -> Segmentation:
         from simart_kit.segments import find_segments
 
+        from .asking import said_by
         from .meshes import mesh_cloud
-        from .predicting import predict
         from .proposals import of_geometry, with_body
         from .showing import evidence
         from .sliding_leaves import with_slides
-        from .stored_model import read_model, shipped_folder
+        from .stored_model import read_knowledge, shipped_folder
         from .trusting import enough, settled
 
         folder = Path(self.options.model) if self.options.model else shipped_folder()
-        model = read_model(folder)
+        known = read_knowledge(folder)
         seen = mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(self.seed))
         # With a spec, a skin is cut by what the network says of its patches; else geometry finds more on it.
         asked = self.options.pool and not (seen.skin and spec is not None)
-        with ThreadPoolExecutor(1) as beside:  # the network's products leave the interpreter to geometry
-            saying = beside.submit(predict, model.network, seen.cloud, self.options.votes, model.statistics)
-            at_once = asked and len(mesh.faces) <= _MANY
-            geometry = of_geometry(mesh, self.seed) if at_once else []
-            said = saying.result()
-        material = partial(model.known.material, said.category)
-        still = sum(said.categories[name] for name in model.known.still)
+        saying = beside.ask(said_by, folder, seen.cloud, self.options.votes)
+        at_once = asked and len(mesh.faces) <= _MANY
+        geometry = of_geometry(mesh, self.seed) if at_once else []
+        said = saying.result()
+        material = partial(known.material, said.category)
+        still = sum(said.categories[name] for name in known.still)
         if spec is not None and spec.moves:
             still = 0.0
         moves = still < _STILL

@@ -84,6 +84,15 @@ def read_model(folder: Path) -> StoredModel:
     return StoredModel(file.config, file.knowledge, weights, TokenStatistics(*numbers) if numbers else None)
 
 
+def read_knowledge(folder: Path) -> Knowledge:
+    """What goes with the network of a folder.
+
+    Raises:
+        BadInputError: the config is missing or damaged.
+    """
+    return _config(folder / CONFIG_FILE).knowledge
+
+
 def _difference(shapes: Mapping[str, tuple[int, ...]], wanted: Mapping[str, tuple[int, ...]]) -> str:
     """The first thing in which stored weights are not those of a config; empty where there is none."""
     missing = [name for name in wanted if name not in shapes]
