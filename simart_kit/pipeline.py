@@ -36,9 +36,9 @@ from .spec.values import Spec
 from .spec.verdicts import with_verdicts
 from .stages import JointPredictor, Modifier, Prediction, Segmentation, Segmenter
 
-# From so many faces on a process beside this one saves more than its start takes, and files of so many bytes
-# hold as many, if they hold surfaces: it is there then when they are read.
-_MANY, _LARGE = 5_000, 200_000
+# A process beside this one saves more than its start takes if it is there while a file of so many bytes is
+# read, or for so many faces, where they are in files beside that one.
+_LARGE, _MANY = 5_000, 5_000
 
 
 @dataclass(frozen=True)
