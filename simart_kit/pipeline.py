@@ -109,13 +109,10 @@ def convert(
         with _failures_kept(runner, folder):
             runner.tell("run_started")
             with Beside(path.stat().st_size >= _LARGE) as beside:
-                loaded = _load(runner, plugins, path, up, unit)
-                if len(loaded.mesh.faces) >= _MANY:
-                    beside.start()
+                loaded = _load(runner, plugins, path, up, unit, beside)
                 segmentation = _segment(runner, plugins, resolved, loaded, wishes, beside)
                 asset = _articulate(runner, plugins, resolved, loaded, segmentation, name, floating, wishes)
-                stated = loaded.stated is not None
-                asset, picture = _modify(runner, plugins, resolved, asset, stated, beside)
+                asset, picture = _modify(runner, plugins, resolved, asset, loaded.stated is not None, beside)
                 asset = asset if wishes is None else with_verdicts(asset, wishes)
                 report, mains = _write(runner, plugins, resolved, asset, picture, beside)
         arguments: dict[str, Any] = {"name": name, "up": up, "unit": unit, "floating": floating}
@@ -124,9 +121,12 @@ def convert(
 
 
 def _load(
-    runner: Runner, plugins: Plugins, path: Path, up: UpAxis | None, unit: str | float | None
+    runner: Runner, plugins: Plugins, path: Path, up: UpAxis | None, unit: str | float | None, beside: Beside
 ) -> Source:
-    return runner.call("load", path.suffix.lstrip(".").lower(), read_source, path, plugins, up, unit)
+    loaded = runner.call("load", path.suffix.lstrip(".").lower(), read_source, path, plugins, up, unit)
+    if len(loaded.mesh.faces) >= _MANY:
+        beside.start()
+    return loaded
 
 
 def _segment(
