@@ -36,11 +36,29 @@ def first_met(
         again = np.isin(piece, passing) & (piece >= 0)
         if not again.any():
             break
-        labels[going[again]] = -1
-        total[going[again]] += _BEYOND
         going = going[again]
-        origins[going] += (distance[again] + _BEYOND)[:, None] * direction
+        origins[going] += distance[again, None] * direction
+        labels[going] = _lying_there(scene, origins[going], direction, passing)
+        going = going[labels[going] < 0]
+        total[going] += _BEYOND
+        origins[going] += _BEYOND * direction
     return labels, total
+
+
+def _lying_there(
+    scene: Scene, points: FloatArray, direction: FloatArray, passing: Sequence[int] | IntArray
+) -> IntArray:
+    """(N,) piece with a face where one is passed through, as boards that lie on each other have; else -1."""
+    labels = np.full(len(points), -1)
+    lower, upper = scene.bounds[:, 0] - _BEYOND, scene.bounds[:, 1] + _BEYOND
+    near = ((points.min(axis=0) <= upper) & (points.max(axis=0) >= lower)).all(axis=1)
+    near[np.asarray(passing, dtype=np.intp)] = False
+    for piece in np.flatnonzero(near):
+        there = ((points >= lower[piece]) & (points <= upper[piece])).all(axis=1) & (labels < 0)
+        if there.any():
+            _, distance = scene.rays_of(int(piece)).first(points[there] - _BEYOND * direction, direction)
+            labels[np.flatnonzero(there)[distance <= 2 * _BEYOND]] = piece
+    return labels
 
 
 def cast(

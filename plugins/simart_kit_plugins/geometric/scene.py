@@ -167,6 +167,16 @@ class Scene:
         """(N, 3) corners of the triangles of a piece, each as often as it is one."""
         return np.asarray(self.triangles[self.labels == piece].reshape(-1, 3))
 
+    def rays_of(self, piece: int) -> Rays:
+        """The faces of a piece, for casting."""
+        if piece not in self._rays:
+            self._rays[piece] = Rays(self.vertices, self.faces[self.labels == piece])
+        return self._rays[piece]
+
+    @cached_property
+    def _rays(self) -> dict[int, Rays]:
+        return {}
+
     def faces_of(self, pieces: IntArray | tuple[int, ...]) -> IntArray:
         """Indices of the faces of some pieces."""
         return np.flatnonzero(np.isin(self.labels, np.asarray(pieces)))
