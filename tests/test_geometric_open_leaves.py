@@ -28,6 +28,21 @@ def test_the_screen_of_a_laptop_turns_about_the_edge_of_its_base() -> None:
     assert (result.travel("lid", fraction=limits.lower / limits.upper) @ [0, 1, 0]).min() < -0.2  # it closes
 
 
+def test_a_thick_lid_that_lies_open_turns_about_its_inner_face_as_else_it_would_not_close() -> None:
+    walls = [
+        box((-0.3, 0.3), (0.18, 0.2), (0.0, 0.56)),
+        *(box((x, x + 0.02), (-0.2, 0.18), (0.0, 0.56)) for x in (-0.3, 0.28)),
+        *(box((-0.28, 0.28), (-0.2, 0.18), (z, z + 0.02)) for z in (0.0, 0.54)),
+    ]
+    lid = box((-0.3, 0.3), (-0.702, -0.202), (0.0, 0.06))
+    result = found([*walls, lid])
+    assert result.kinds == {"lid": "revolute"}
+    hinge = result.joint("lid")
+    assert_hinge(hinge, (0.0, -0.202, 0.06), "x")
+    assert hinge.limits is not None
+    assert hinge.limits.lower == pytest.approx(-np.pi / 2, abs=1e-6)
+
+
 def test_a_door_that_stands_open_turns_about_the_edge_in_its_frame() -> None:
     leaf = box((-0.4, -0.36), (-0.85, -0.05), (0.01, 1.99))
     result = found([*FRAME, leaf])

@@ -11,6 +11,7 @@ from simart_kit.asset import JointKind
 
 from .views import View
 
+AS_FREE = 0.005  # share of points that may pass through more than about the freest line
 _QUARTER = np.pi / 2
 
 

@@ -12,11 +12,11 @@ import numpy as np
 from simart_kit import Segmentation
 from simart_kit.arrays import vec3
 from simart_kit.asset import Joint, Limits, clean_name, unique_names
-from simart_kit.kinematics import rotation
+from simart_kit.kinematics import turned_about
 from simart_kit.segments import find_segments
-from simart_kit.sweeping import Motion, Sweep
+from simart_kit.sweeping import Sweep
 
-from .candidates import Candidate, Choice, at_depth, hinges, lift, slide, spin
+from .candidates import AS_FREE, Candidate, Choice, at_depth, hinges, lift, slide, spin
 from .choice import (
     RACKS,
     SPINNING,
@@ -52,7 +52,6 @@ if TYPE_CHECKING:
 
 _SUFFIX = {"revolute": "hinge", "prismatic": "slide", "continuous": "spin", "free": "joint"}
 _SHUT = np.deg2rad(0.5)
-_AS_FREE = 0.005  # share of points that may pass through more than about the freest line
 _POST = 0.3  # of the diagonal: lower rods hold no leaf
 _HARDWARE = 0.12  # pieces of the body smaller than this share of the diagonal may be hinges
 
@@ -270,9 +269,9 @@ def _deep_enough(scene: Scene, view: View, hinge: Candidate) -> Candidate:
     middle = (lower + upper) / 2
     depths = (lower, middle, upper) if view.facing == "top" else (middle, upper, lower)
     tried = [at_depth(hinge, float(w)) for w in depths]
-    shares = [float(sweep.blocked(_turning(one), stops)[-1]) for one in tried]
+    shares = [float(sweep.blocked(partial(turned_about, one.axis, one.origin), stops)[-1]) for one in tried]
     # An inset door that turns about its middle cuts into its frame with a narrow strip, a percent of it.
-    return next(one for one, share in zip(tried, shares, strict=True) if share <= min(shares) + _AS_FREE)
+    return next(one for one, share in zip(tried, shares, strict=True) if share <= min(shares) + AS_FREE)
 
 
 def _thickness(scene: Scene, view: View, hinge: Candidate) -> tuple[float, float]:
@@ -282,16 +281,6 @@ def _thickness(scene: Scene, view: View, hinge: Candidate) -> tuple[float, float
     points = scene.points_of(view.part) @ view.axes.T
     near = np.abs(points[:, 0] - hinge.origin[0]) < 0.05 * view.box.size[0]
     return float(points[near, 2].min()), float(points[near, 2].max())
-
-
-def _turning(hinge: Candidate) -> Motion:
-    def motion(angle: float) -> FloatArray:
-        matrix = np.eye(4)
-        matrix[:3, :3] = rotation(hinge.axis * angle)
-        matrix[:3, 3] = hinge.origin - matrix[:3, :3] @ hinge.origin
-        return matrix
-
-    return motion
 
 
 def _closed(view: View, hinge: Candidate) -> float:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Set
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from simart_kit.arrays import FloatArray, IntArray, unit
+from simart_kit.kinematics import rotation, turned_about
+from simart_kit.sweeping import Sweep
 
-from .candidates import Candidate, Choice
+from .candidates import AS_FREE, Candidate, Choice
 from .casting import first_met
 from .contact import TOUCH, Contacts, hanging_on
 from .movers import SHALLOWEST, Mover
@@ -27,6 +30,8 @@ _SAME = 0.15  # share of its extent by which a panel may differ from what it clo
 _PLATE = 0.08  # the same of two plates of one size
 _OPEN = 0.85  # share of rays that pass through an opening
 _FREE = 0.03  # so near its far half nothing stands: else it is a wall
+_ALMOST_CLOSED = 0.9  # of the way to closed: what is nearer touches what it closes, as seals do
+_CUTS = 2.0  # a leaf that cuts so many times as much into what it closes from its middle hangs at its face
 _SLAB = 0.25  # thickness of the other half of a clamshell, as a share of its width and length
 
 
@@ -83,9 +88,22 @@ def opened(scene: Scene, view: View) -> Choice | None:
     leaf = standing_open(scene, scene.faces_of((view.part,)), np.array([view.part]))
     if leaf is None:
         return None
-    axes = view.axes
-    hinge = Candidate("revolute", axes @ leaf.axis, axes @ leaf.hinge, np.pi / 2, closed=-leaf.angle)
+    axes, line = view.axes, _free_to_close(scene, view.part, leaf)
+    hinge = Candidate("revolute", axes @ leaf.axis, axes @ line, np.pi / 2, closed=-leaf.angle)
     return hinge, 0.8, (f"stands open by {np.degrees(leaf.angle):.0f} degrees about this edge",)
+
+
+def _free_to_close(scene: Scene, part: int, leaf: Leaf) -> FloatArray:
+    """(3,) middle of the edge; at the inner face where a leaf hung in its middle cuts into what it closes."""
+    inner = -leaf.outward @ rotation(leaf.axis * leaf.angle).T
+    mine = scene.labels == part
+    sweep = Sweep(scene.vertices, scene.faces[mine], scene.faces[~mine])
+    stops = -_ALMOST_CLOSED * leaf.angle * np.linspace(0.05, 1.0, 20)
+    lines = (leaf.hinge, leaf.hinge + 0.5 * leaf.thickness * inner)
+    in_middle, at_face = (
+        float(sweep.blocked(partial(turned_about, leaf.axis, line), stops)[-1]) for line in lines
+    )
+    return lines[1] if in_middle > _CUTS * at_face + AS_FREE else lines[0]
 
 
 def standing_open(scene: Scene, panel: IntArray, own: IntArray) -> Leaf | None:
