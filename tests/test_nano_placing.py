@@ -72,3 +72,49 @@ def test_what_it_says_otherwise_moves_no_line(said):
 def test_what_slides_has_no_line_to_be_moved():
     slide = replace(DOOR, joint=replace(HINGE, kind="prismatic"))
     assert line(told(0.1), slide) == HINGE.origin
+
+
+# A case: its lid has two latches on its front edge, and nothing on the back one.
+CASE = boxes_mesh(
+    [
+        ((0, 0, 0), (1, 1, 0.7)),
+        ((0, 0, 0.71), (1, 1, 1)),
+        ((0.2, -0.02, 0.6), (0.3, -0.001, 0.8)),
+        ((0.7, -0.02, 0.6), (0.8, -0.001, 0.8)),
+    ]
+)
+CASE_PIECE = np.repeat(np.arange(4), 12)
+FRONT = Joint("j", "revolute", "body", "part", (0.5, -0.01, 0.75), (1.0, 0.0, 0.0), Limits(0.0, 1.5))
+LID = Proposal(np.isin(CASE_PIECE, (1, 2, 3)), PartGuess("lid", label="lid"), FRONT, None)
+
+
+def turning(piece, y, z, *, confidence, axis=(-1.0, 0.0, 0.0)):
+    """A piece of the case of which the network says that it turns about the line at (y, z)."""
+    return SimpleNamespace(
+        pieces=np.array([piece]),
+        kind="revolute",
+        axis=np.array(axis),
+        origin=np.array([0.5, y, z]),
+        lower=0.0,
+        upper=1.0,
+        confidence=confidence,
+    )
+
+
+@pytest.mark.parametrize(
+    ("latch", "recognised", "line"),
+    [
+        (turning(2, -0.01, 0.8, confidence=0.9), True, (0.5, 1.0, 0.7)),
+        (turning(2, -0.01, 0.8, confidence=0.4), True, FRONT.origin),
+        (turning(2, -0.01, 0.8, confidence=0.9), False, FRONT.origin),
+        (turning(2, -0.01, 0.8, confidence=0.9, axis=(0.0, 1.0, 0.0)), True, FRONT.origin),
+        (turning(0, -0.01, 0.8, confidence=0.9), True, FRONT.origin),
+    ],
+    ids=["a latch", "an unlikely one", "of something unknown", "a knob", "something large"],
+)
+def test_latches_are_no_hinges_in_what_is_recognised(latch, recognised, line):
+    lid = turning(1, 1.0, 0.7, confidence=0.6)
+    said = SimpleNamespace(parts=(lid, latch), doubtful=(), recognised=recognised)
+    seen = SimpleNamespace(face_piece=CASE_PIECE, size=1.0, center=np.zeros(3))
+    (found,) = placed(CASE, [LID], said, seen)
+    assert found.joint.origin == line

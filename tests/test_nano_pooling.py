@@ -118,6 +118,9 @@ def test_three_drawers_that_are_taken_for_one_with_their_carcass_are_several():
     found = pooled(mesh, [chest], drawers)
     assert [p.faces.tolist() for p in found] == [d.faces.tolist() for d in drawers]
     assert len(pooled(mesh, [chest], drawers[:2])) == 1  # two are less than half of it
+    # A garage's door goes up, whatever its sections look like.
+    (door,) = pooled(mesh, [replace(chest, joint=replace(chest.joint, axis=(0.0, 0.0, 1.0)))], drawers)
+    assert door.faces.tolist() == chest.faces.tolist()
 
 
 def test_who_knows_the_object_is_told_of_nothing_else_and_of_no_other_joint():

@@ -89,11 +89,15 @@ def _held(mesh: Mesh, joint: Joint, faces: BoolArray, moving: BoolArray) -> bool
 
 
 def _lumped(areas: FloatArray, one: Proposal, others: Sequence[Proposal]) -> bool:
-    """Whether a proposal is several parts that slide, such as the drawers of a stack, taken for one."""
+    """Whether a proposal is several parts that slide, such as the drawers of a stack, taken for one.
+
+    What slides otherwise is none: a garage's door goes up, whatever its sections look like.
+    """
     shares = [
         float(areas[other.faces & one.faces].sum() / areas[one.faces].sum())
         for other in others
         if other.joint.kind == "prismatic" and _lies_in(areas, other, one)
+        if one.joint.kind != "prismatic" or along(one.joint, other.joint)
     ]
     return sum(share >= _SHARE for share in shares) > 1 and sum(shares) >= SAME
 
