@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from simart_kit_plugins.modifiers.sweep import Sweep
 from simart_kit_plugins.nano.generate.catalogue import CATEGORIES
+from simart_kit_plugins.nano.generate.category import named
 from simart_kit_plugins.nano.generate.objects import GeneratedObject
 from simart_kit_plugins.shapes.dice import Dice
 
@@ -41,3 +42,20 @@ def test_of_a_hundred_joints_at_most_one_has_no_room():
         limited += sum(joint.kind in LIMITED for joint in asset.joints)
         held += [f"{category.name} {j.child}" for j in Sweep().modify(asset).joints if j.flags]
     assert len(held) <= 0.01 * limited, held
+
+
+@pytest.mark.parametrize(("category", "label"), [("jar", "stopper"), ("chafing_dish", "lid")])
+def test_what_turns_over_a_rim_has_room_beside_it(category, label):
+    make = named(category, CATEGORIES).make
+    assets = [asset_of(make(Dice((5, number)))) for number in range(24)]
+    turning = [a for a in assets if any(a.part(j.child).label == label and j.limits for j in a.joints)]
+    assert len(turning) >= 2
+    assert [j.flags for a in turning for j in Sweep().modify(a).joints if j.flags] == []
+
+
+def test_a_stool_has_a_column_where_one_comes_out_of_its_post():
+    make = named("swivel_stool", CATEGORIES).make
+    for made in (make(Dice((5, number))) for number in range(12)):
+        post, seat = made.bodies[0].triangles[..., 2].max(), made.bodies[-1].triangles[..., 2].min()
+        reaches = abs(post - seat) < 0.03  # what is between them is a column
+        assert reaches != any(body.label == "column" for body in made.bodies)

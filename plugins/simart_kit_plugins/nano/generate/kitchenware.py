@@ -72,7 +72,7 @@ def _jar(dice: Dice) -> list[Body]:
     if style < 0.65:
         kit.add("cap", spin(base, (0, 0, 1)), [(cap, stuff)])
     elif style < 0.8:
-        _swing_top(dice, kit, neck, height, stuff)
+        _swing_top(dice, kit, neck, height, 1.1 * throat, stuff)
     else:
         pin = (0, neck * 1.15, height + 0.001)
         shape = moved(_cap(dice, neck * 1.1, high * 0.6), (0, 0, height + 0.001))
@@ -81,17 +81,15 @@ def _jar(dice: Dice) -> list[Body]:
     return kit.done()
 
 
-def _swing_top(dice: Dice, kit: Assembly, neck: float, height: float, look: Look) -> None:
-    """A wire bow on pins at the neck with a stopper that hangs in it."""
-    wire, level = max(neck * 0.07, 0.001), height - neck * 0.8
-    top = height + neck * 0.35
-    bow = [(-neck * 1.12, 0, level), (-neck * 1.12, 0, top), (neck * 1.12, 0, top), (neck * 1.12, 0, level)]
-    stop = revolve(np.array([[0.0, 0.0], [0.75, 0], [1.0, 0.15], [0.9, 0.5], [0, 0.6]]) * neck, 16) + [
-        0,
-        0,
-        height + 0.001,
-    ]
-    pin = (0, 0, level)
+def _swing_top(dice: Dice, kit: Assembly, neck: float, height: float, shoulder: float, look: Look) -> None:
+    """A wire bow on pins at the neck with a stopper in it, hollow about the pins: so it clears the rim."""
+    wire = max(neck * 0.07, 0.001)
+    level = max(height - neck * 0.8, shoulder + 2 * wire)
+    reach, angle = 1.03 * np.hypot(neck, height - level), np.arctan2(neck, height - level)
+    line = np.column_stack([np.sin(angle * np.linspace(0, 1, 8)), np.cos(angle * np.linspace(0, 1, 8))])
+    stop = revolve(reach * np.concatenate([line, 1.15 * line[::-1]]), 16) + [0, 0, level]
+    pin, side, top = (0, 0, level), neck * 1.12, level + 1.15 * reach
+    bow = [(-side, 0, level), (-side, 0, top), (side, 0, top), (side, 0, level)]
     kit.fix([rod((-neck * 1.1, 0, level), (neck * 1.1, 0, level), wire * 1.2)], look)
     parts = [([tube(bow, wire, 6)], look), ([stop], looks.ceramic(dice))]
     kit.add("stopper", hinge(pin, (dice.sign(), 0, 0), dice.between(1.3, 1.9)), parts)

@@ -76,16 +76,12 @@ def _office_chair(dice: Dice) -> list[Body]:
     whole = Rig(surface([*around([arm], count, start), *hub], frame), label="base")
     angles = start + 2 * np.pi * np.arange(count) / count
     _rollers(dice, whole, [(reach * np.cos(a), reach * np.sin(a), low - 0.4 * thick) for a in angles], frame)
-    parent = 0
     piston = surface([rod((0, 0, low + 0.02), (0, 0, height - 0.03), sleeve * 0.65, 10)], looks.metal(dice))
-    if dice.chance(0.6):
-        parent = whole.add("column", slide(UP, dice.between(0.06, 0.12)), piston)
+    column = whole.add("column", slide(UP, dice.between(0.06, 0.12)), piston)
     width, depth = dice.between(0.42, 0.54), dice.between(0.42, 0.52)
     under = surface([box((0.2, 0.25, 0.035), (0, 0, height - 0.02))], frame)
     pad = surface([_cushion(dice, width, depth, 0.09) + [0, 0, height + 0.04]], cover)
-    seat = whole.add("seat", spin((0, 0, height), UP), pad, under, parent=parent)
-    if parent == 0:
-        whole.dress(seat, piston)
+    seat = whole.add("seat", spin((0, 0, height), UP), pad, under, parent=column)
     _office_back(dice, whole, seat, (width, depth, height), (frame, cover))
     return whole.bodies()
 
@@ -120,15 +116,16 @@ def _office_back(
 
 
 def _swivel_stool(dice: Dice) -> list[Body]:
+    """A seat that turns, on a column that lifts out of its post, or on a post that reaches up to it."""
     height, radius = dice.between(0.4, 0.8), dice.between(0.15, 0.21)
     frame, cover = looks.metal(dice), looks.fabric(dice) if dice.chance(0.6) else looks.wood(dice)
-    stem = dice.between(0.015, 0.03)
+    stem, lifts = dice.between(0.015, 0.03), dice.chance(0.5)
     if dice.chance(0.4):
         base: Pieces = [revolve(np.array([[0, 0.03], [0.2, 0.03], [1, 0.012], [1, 0], [0, 0]]) * [radius, 1])]
     else:
         leg = tube([(0, 0, height * 0.55), (0.6 * radius, 0, 0.4 * height), (1.2 * radius, 0, 0.01)], 0.014)
         base = around([leg], dice.whole(3, 5), dice.between(0, 1))
-    base.append(rod((0, 0, 0.01), (0, 0, height * 0.6), stem * 1.4, 12))
+    base.append(rod((0, 0, 0.01), (0, 0, height * 0.6 if lifts else height - 0.01), stem * 1.4, 12))
     if dice.chance(0.5):
         ring = 0.25 * height
         base += [
@@ -136,18 +133,17 @@ def _swivel_stool(dice: Dice) -> list[Body]:
             *around([rod((0, 0, ring), (radius * 0.85, 0, ring), 0.008)], 3),
         ]
     whole = Rig(surface(base, frame), label="base")
-    screw, parent = surface([rod((0, 0, 0.1), (0, 0, height - 0.01), stem, 10)], looks.darker(frame)), 0
-    if dice.chance(0.5):
-        parent = whole.add("column", slide(UP, 0.25 * height), screw)
+    parent = 0
+    if lifts:
+        column = surface([rod((0, 0, 0.1), (0, 0, height - 0.01), stem, 10)], looks.darker(frame))
+        parent = whole.add("column", slide(UP, 0.25 * height), column)
     top = superquadric((2 * radius, 2 * radius, dice.between(0.03, 0.09)), dice.between(0.2, 0.7), 1.0, 8)
     pad = [surface([top + [0, 0, height + 0.02]], cover)]
     if dice.chance(0.3):
         back = moved(_shell(1.6 * radius, 0.25, 0.08, 0.02), (0, 0.9 * radius, height + 0.08))
         brace = box((0.04, 0.012, 0.2), (0, 0.98 * radius, height + 0.08))
         pad.append(surface([*back, brace], cover))
-    seat = whole.add("seat", spin((0, 0, height), UP), *pad, parent=parent)
-    if parent == 0:
-        whole.dress(seat, screw)
+    whole.add("seat", spin((0, 0, height), UP), *pad, parent=parent)
     return whole.bodies()
 
 

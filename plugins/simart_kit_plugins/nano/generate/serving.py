@@ -49,7 +49,7 @@ def _chafing_dish(dice: Dice) -> list[Body]:
         pan = [open_box((span - 0.01, deep - 0.03, 0.07), 0.002) + [x, 0, level - 0.065]]
         pan += [boxes((span, 0.012, 0.003), [(x, s * (deep / 2 - 0.009), level + 0.0045) for s in (-1, 1)])]
         kit.add("pan", free(), [(pan, looks.metal(dice))])
-    style, radius = dice.unit(), deep / 2 + 0.008
+    style, radius = dice.unit(), np.hypot(deep / 2, 0.112) + 0.008
     glass = looks.glass(dice) if dice.chance(0.3) else metal
     if style < 0.55:
         pin = np.array([0, 0, level + 0.012])
@@ -58,7 +58,9 @@ def _chafing_dish(dice: Dice) -> list[Body]:
         grip = moved(grip, (0, -radius * np.cos(0.6), radius * np.sin(0.6)))
         ends = [lying(0.014, 0.006) + [s * (wide / 2 - 0.003), 0, 0] for s in (-1, 1)]
         kit.fix([box((0.01, 0.03, 0.05), (s * (wide / 2 + 0.006), 0, level)) for s in (-1, 1)], metal)
-        kit.add("lid", hinge(pin, LEFT, 1.6), [(moved(dome + ends, pin), glass), (moved(grip, pin), DARK)])
+        # It rolls around the pan, down to the burners.
+        down = np.arcsin(min(1.0, (level - 0.1) / radius))
+        kit.add("lid", hinge(pin, LEFT, down), [(moved(dome + ends, pin), glass), (moved(grip, pin), DARK)])
     else:
         rise = dice.between(0.06, 0.12)
         lid = [
