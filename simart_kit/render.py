@@ -91,7 +91,7 @@ def rest_caster(asset: Asset) -> Rays:
 
 
 def write_preview(asset: Asset, path: Path) -> Path:
-    """Write the PNG picture of an asset closed, half open and open; see `preview`."""
+    """Write the PNG picture of an asset in three poses; see `preview`."""
     from .drawing.preview import preview_png
 
     path.write_bytes(preview_png(asset))

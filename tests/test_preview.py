@@ -13,7 +13,7 @@ from PIL import Image as Pillow
 from simart_kit.asset import Asset, Joint, Limits, Part
 from simart_kit.drawing.joint_marks import joint_strokes
 from simart_kit.drawing.legend import legend, part_entries, summary
-from simart_kit.drawing.preview import PANEL, preview_png
+from simart_kit.drawing.preview import PANEL, poses, preview_png
 from simart_kit.kinematics import opened, rest_to_posed, rotation
 from simart_kit.render import write_preview
 from simart_kit.testing.meshes import boxes_mesh, cabinet_asset, chain_asset, static_asset
@@ -47,6 +47,16 @@ def test_preview_shows_closed_half_open_and_open(cabinet_png: bytes) -> None:
     # The body stands in all panels at the same place: its top, seen from the same camera.
     same = (np.abs(closed - open_).max(axis=2) < 6) & (np.ptp(closed, axis=2) <= 12) & (closed[..., 0] < 225)
     assert same.sum() > 5_000
+
+
+def test_what_stands_open_in_its_file_is_not_called_closed() -> None:
+    asset = cabinet_asset(textured=False)
+    hinge = next(joint for joint in asset.joints if joint.turns)
+    ajar = asset.with_joints({hinge.name: replace(hinge, limits=Limits(-0.4, 1.2))})
+    wide = asset.with_joints({hinge.name: replace(hinge, limits=Limits(-1.5, 0.1))})
+    assert list(poses(asset)) == list(poses(ajar)) == ["closed", "half open", "open"]
+    assert list(poses(wide)) == ["as modelled", "half way", "all the way"]
+    assert [panel.shape for panel in panels(preview_png(wide), 3)] == [(PANEL[1], PANEL[0], 3)] * 3
 
 
 def test_preview_of_a_static_object_says_so(tmp_path: Path) -> None:

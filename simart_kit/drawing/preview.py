@@ -1,4 +1,4 @@
-"""preview.png: the object closed, half open and open, with its joints drawn and named."""
+"""preview.png: the object in three poses, from closed to open, with its joints drawn and named."""
 
 from __future__ import annotations
 
@@ -29,7 +29,6 @@ PANEL = (500, 470)
 """Width and height of one view [pixels]."""
 BACKGROUND: Color = (240, 242, 245)
 INK: Color = (40, 44, 52)
-_FRACTIONS = {"closed": 0.0, "half open": 0.5, "open": 1.0}
 _ELEVATION = np.deg2rad(24.0)
 _AZIMUTHS = np.deg2rad([-33.0, 33.0, 147.0, -147.0])
 _TINT = 0.7
@@ -47,14 +46,25 @@ def preview_png(asset: Asset) -> bytes:
     return _sheet(panels, summary(asset), legend(asset))
 
 
+def poses(asset: Asset) -> dict[str, float]:
+    """What to call each pose, and which share of its longer way every joint has gone; the first is at rest.
+
+    What rests between its ends and goes farther back than on stands open in its file.
+    """
+    ajar = any(joint.limits and 0 < joint.limits.upper < -joint.limits.lower for joint in asset.joints)
+    names = ("as modelled", "half way", "all the way") if ajar else ("closed", "half open", "open")
+    return dict(zip(names, (0.0, 0.5, 1.0), strict=True))
+
+
 def _moving_panels(asset: Asset) -> dict[str, Image.Image]:
-    posable = PosableMesh.of(asset)
-    meshes = {name: posable.posed(opened(asset, fraction)) for name, fraction in _FRACTIONS.items()}
-    marks = {name: _marks(posable, fraction) for name, fraction in _FRACTIONS.items() if fraction}
+    posable, shares = PosableMesh.of(asset), poses(asset)
+    first, _, last = shares
+    meshes = {name: posable.posed(opened(asset, share)) for name, share in shares.items()}
+    marks = {name: _marks(posable, share) for name, share in shares.items() if share}
     shown = [m.vertices for m in meshes.values()]
     shown += [stroke.points for strokes in marks.values() for stroke, _ in strokes]
-    casters = {name: _caster(posable, meshes[name]) for name in ("closed", "open")}
-    camera = _camera(casters["closed"], casters["open"], np.concatenate(shown))
+    casters = {name: _caster(posable, meshes[name]) for name in (first, last)}
+    camera = _camera(casters[first], casters[last], np.concatenate(shown))
     ground = min(float(m.bounds[0, 2]) for m in meshes.values())
     paint = _paint(asset)
 
@@ -63,7 +73,7 @@ def _moving_panels(asset: Asset) -> dict[str, Image.Image]:
         picture = _view(meshes[name], camera, ground, own, casters.get(name))
         return _drawn_over(picture, marks[name], camera) if name in marks else picture
 
-    return _side_by_side(seen, _FRACTIONS)
+    return _side_by_side(seen, shares)
 
 
 def _static_panels(asset: Asset) -> dict[str, Image.Image]:
