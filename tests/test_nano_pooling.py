@@ -168,6 +168,24 @@ def test_something_stands_still():
     assert with_body(MESH, [small, on_it]) == [small, on_it]
 
 
+def test_what_carries_the_others_stands_still_where_only_feet_are_left():
+    leaves = boxes_mesh(
+        [((x, 0, 0.1), (x + 1, 0.02, 2)) for x in (0, 1.01, 2.02)] + [((1, 0, 0), (1.1, 0.02, 0.1))]
+    )
+    box = np.repeat(np.arange(4), 12)
+    outer, middle, other = (
+        replace(proposal([0], f"leaf_{k}", parent=parent), faces=box == k)
+        for k, parent in ((0, 1), (1, None), (2, 1))
+    )
+    found = with_body(leaves, [outer, middle, other])
+    assert [(p.guess.label, p.parent) for p in found] == [("leaf_0", None), ("leaf_2", None)]
+    # Two of them have a body: the third.
+    assert (
+        with_body(leaves, [replace(outer, parent=None), replace(other, parent=None)])[1].guess.label
+        == "leaf_2"
+    )
+
+
 CONFIG = NanoConfig(
     channels=16, layers=1, heads=2, hidden=16, point_channels=8, labels=("door",), categories=("cabinet",)
 )

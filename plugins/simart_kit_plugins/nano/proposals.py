@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 SAME = 0.5  # overlap from which on two proposals are of one part
 _ALONG = np.cos(np.deg2rad(15.0))  # of axes that are much the same
+_BODY = 0.02  # share of the surface that what stands still has at least
 SUFFIX = {"revolute": "hinge", "prismatic": "slide", "continuous": "spin"}
 
 
@@ -100,14 +101,19 @@ def of_geometry(mesh: Mesh, seed: int, spec: Spec | None = None) -> list[Proposa
 
 
 def with_body(mesh: Mesh, proposals: Sequence[Proposal]) -> list[Proposal]:
-    """The proposals, but for the largest if they leave nothing of the mesh: something has to stand still."""
+    """The proposals, but for one if they leave next to nothing of the mesh: something has to stand still.
+
+    That is the largest of those that nothing else carries: a screen's hinges and feet carry no leaves.
+    """
     kept = list(proposals)
     claimed = np.zeros(len(mesh.faces), dtype=np.bool_)
     for proposal in kept:
         claimed |= proposal.faces
-    if not kept or not claimed.all():
+    areas = mesh.face_areas
+    if not kept or areas[~claimed].sum() >= _BODY * areas.sum():
         return kept
-    largest = int(np.argmax([mesh.face_areas[proposal.faces].sum() for proposal in kept]))
+    on_body = [k for k, proposal in enumerate(kept) if proposal.parent is None] or range(len(kept))
+    largest = max(on_body, key=lambda k: float(areas[kept[k].faces].sum()))
     return only(kept, [k for k in range(len(kept)) if k != largest])
 
 
