@@ -187,7 +187,7 @@ def test_a_score_counts_right_answers(plan, objects, tmp_path):
 @pytest.mark.slow
 def test_the_command_trains_goes_on_and_judges(tmp_path, capfd, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    small = ["--objects", "6", "--held-out", "2", "--batch-size", "3", "--processes", "1"]
+    small = ["--objects", "6", "--held-out", "2", "--of-each", "1", "--batch-size", "3", "--processes", "1"]
     assert run(["train", "nano", "--run", "out", "--steps", "2", *small, "--json"]) == 0
     out, err = capfd.readouterr()
     scores = json.loads(out)["scores"]

@@ -16,13 +16,13 @@ from simart_kit.arrays import Float32Array, FloatArray
 
 from .array_network import ArrayNetwork
 from .cloud import Cloud
+from .kinds import KindStatistics
 from .voting import Said, say
+from .whitening import whitening
 
 # Tokens of an object, (V, S, D) as seen from V sides: half way through the layers, and after the last.
 LAYERS = 2
 Tokens: TypeAlias = tuple[Float32Array, Float32Array]
-# Share of the mean variance that every direction has at least.
-_LEAST = 0.01
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,10 +32,12 @@ class TokenStatistics:
     Attributes:
         mean: (LAYERS, D).
         whitening: (LAYERS, D, D); (token - mean) @ whitening has unit variance in all directions.
+        kinds: of the objects of each category, where these are known.
     """
 
     mean: Float32Array
     whitening: Float32Array
+    kinds: KindStatistics | None = None
 
     def novelty(self, tokens: Tokens) -> float:
         """Mean squared Mahalanobis distance of its tokens, a channel: about 1 for what was trained on."""
@@ -63,12 +65,5 @@ def gathered(network: ArrayNetwork, clouds: Iterable[Cloud]) -> TokenStatistics:
         seconds.append(np.stack([one.T @ one / len(one) for one in each]))
     mean = np.mean(firsts, axis=0)
     covariance = np.mean(seconds, axis=0) - mean[:, :, None] * mean[:, None, :]
-    whitening = np.stack([_whitening(one) for one in covariance])
-    return TokenStatistics(mean.astype(np.float32), whitening.astype(np.float32))
-
-
-def _whitening(covariance: FloatArray) -> FloatArray:
-    """(D, D) W with W W^T the inverse of a covariance, of which no direction is without spread."""
-    values, vectors = np.linalg.eigh(covariance)
-    least = max(_LEAST * float(values.mean()), 1e-12)
-    return np.asarray(vectors / np.sqrt(np.maximum(values, 0) + least))
+    white = np.stack([whitening(one) for one in covariance])
+    return TokenStatistics(mean.astype(np.float32), white.astype(np.float32))

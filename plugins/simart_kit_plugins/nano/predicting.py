@@ -29,6 +29,10 @@ _CARRIED = 0.5
 # An object of which the sides differ no more than by the first is recognised, and by the second if it is no
 # newer than that: what it has seen alike it reads alike from all sides, else each side says something else.
 _ALIKE, _ALIKE_IF_NOT_NEW, _NO_NEWER = 0.0005, 0.01, 1.1
+# It may be as new as it likes if it is that sure what it is, the sides hardly differ, and it is like others
+# of that kind: generated things of other kinds are taken for known ones less surely, and real ones are less
+# like them.
+_SURE_OF_KIND, _ALIKE_IF_OF_KIND, _LIKE_ITS_KIND = 0.8, 0.005, 1.9
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,6 +84,7 @@ class Prediction:
             has no statistics.
         categories: chance of each known category.
         size: longest side [m], and the factor by which opinions differ about it, at least 1.
+        unlikeness: to others of its category (`KindStatistics.unlikeness`); infinite where that is not known.
     """
 
     parts: tuple[PredictedPart, ...]
@@ -91,12 +96,16 @@ class Prediction:
     novelty: float
     categories: Mapping[str, float]
     size: tuple[float, float]
+    unlikeness: float = float("inf")
 
     @property
     def recognised(self) -> bool:
         """Whether it is read alike from all sides, as what was trained on is, of whatever kind."""
-        alike = _ALIKE_IF_NOT_NEW if self.novelty <= _NO_NEWER else _ALIKE
-        return self.discord <= alike
+        if self.novelty <= _NO_NEWER:
+            return self.discord <= _ALIKE_IF_NOT_NEW
+        sure = max(self.categories.values(), default=0.0) >= _SURE_OF_KIND
+        of_kind = sure and self.unlikeness <= _LIKE_ITS_KIND
+        return self.discord <= (_ALIKE_IF_OF_KIND if of_kind else _ALIKE)
 
 
 def predict(
@@ -121,8 +130,20 @@ def predict(
     name = names[best - 1] if best else ""
     chances = dict(zip(names, said.category[1:].tolist(), strict=True))
     piece_part = piece_parts([part.pieces for part in parts], cloud.count)
-    novelty = float("inf") if statistics is None else statistics.novelty(tokens_of(said))
-    return Prediction(parts, (), piece_part, said.moves, name, said.discord, novelty, chances, said.size)
+    novelty, unlike = _news(said, best - 1, statistics)
+    return Prediction(
+        parts, (), piece_part, said.moves, name, said.discord, novelty, chances, said.size, unlike
+    )
+
+
+def _news(said: Said, kind: int, statistics: TokenStatistics | None) -> tuple[float, float]:
+    """Novelty of an object, and unlikeness to its kind; -1 is of none."""
+    if statistics is None:
+        return float("inf"), float("inf")
+    tokens = tokens_of(said)
+    known = statistics.kinds if kind >= 0 else None
+    unlike = float("inf") if known is None else known.unlikeness(tokens, kind)
+    return statistics.novelty(tokens), unlike
 
 
 def plausible(part: PredictedPart, area: FloatArray) -> PredictedPart:

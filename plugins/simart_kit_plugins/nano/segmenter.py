@@ -218,7 +218,7 @@ def _notes(said: Prediction, seen: MeshCloud, still: float, bar: float, parts: i
 
 def _trust(said: Prediction, bar: float) -> str:
     knows = "recognises it" if said.recognised else "does not recognise it"
-    measured = f"discord {said.discord:.2g}, novelty {said.novelty:.2f}"
+    measured = f"discord {said.discord:.2g}, novelty {said.novelty:.2f}, unlikeness {said.unlikeness:.2f}"
     return f"the network {knows} ({measured}): {bar:.2f} sure is enough for its parts"
 
 

@@ -18,9 +18,10 @@ from simart_kit.errors import BadInputError
 from ..tables import Table, told
 from .array_network import ArrayNetwork
 from .config import NanoConfig
+from .kinds import KindStatistics
 from .knowledge import Knowledge
 from .novelty import TokenStatistics
-from .weight_shapes import statistic_shapes, weight_shapes
+from .weight_shapes import kind_shapes, statistic_shapes, weight_shapes
 
 CONFIG_FILE, WEIGHTS_FILE = "config.json", "model.safetensors"
 _AGAIN = "give a folder that `train nano` wrote, or copy it again"
@@ -71,8 +72,9 @@ def read_model(folder: Path) -> StoredModel:
     file = _config(folder / CONFIG_FILE)
     weights = _weights(folder / WEIGHTS_FILE)
     wanted = weight_shapes(file.config)
-    of_statistics = statistic_shapes(file.config)
-    wanted |= of_statistics if weights.keys() & of_statistics.keys() else {}
+    of_statistics, of_kinds = statistic_shapes(file.config), kind_shapes(file.config)
+    for optional in (of_statistics, of_kinds):
+        wanted |= optional if weights.keys() & optional.keys() else {}
     wrong = _difference({name: array.shape for name, array in weights.items()}, wanted)
     if wrong:
         raise BadInputError(
@@ -81,7 +83,10 @@ def read_model(folder: Path) -> StoredModel:
             "or train it again where an older version made it"
         )
     numbers = [weights.pop(name) for name in of_statistics if name in weights]
-    return StoredModel(file.config, file.knowledge, weights, TokenStatistics(*numbers) if numbers else None)
+    of_each = [weights.pop(name) for name in of_kinds if name in weights]
+    kinds = KindStatistics(of_each[0], of_each[1]) if of_each else None
+    statistics = TokenStatistics(numbers[0], numbers[1], kinds) if numbers else None
+    return StoredModel(file.config, file.knowledge, weights, statistics)
 
 
 def read_knowledge(folder: Path) -> Knowledge:

@@ -37,9 +37,15 @@ def weight_shapes(config: NanoConfig) -> dict[str, tuple[int, ...]]:
 
 
 def statistic_shapes(config: NanoConfig) -> dict[str, tuple[int, ...]]:
-    """The shape of each field of `TokenStatistics`, in their order, by the name that it is stored by."""
+    """The shape of each array of `TokenStatistics`, in their order, by the name that it is stored by."""
     width = config.channels
     return {"statistics.mean": (LAYERS, width), "statistics.whitening": (LAYERS, width, width)}
+
+
+def kind_shapes(config: NanoConfig) -> dict[str, tuple[int, ...]]:
+    """The same of `KindStatistics`."""
+    width = config.channels
+    return {"kinds.means": (len(config.categories), width), "kinds.whitening": (width, width)}
 
 
 def _layer(name: str, config: NanoConfig) -> dict[str, tuple[int, ...]]:

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 import torch
 
+from simart_kit.arrays import Float32Array
 from simart_kit.errors import OutputError
 
 from .knowledge import Knowledge
 from .network import NanoNetwork
 from .novelty import TokenStatistics
 from .stored_model import CONFIG_FILE, WEIGHTS_FILE, ConfigFile, read_model
-from .weight_shapes import statistic_shapes
+from .weight_shapes import kind_shapes, statistic_shapes
 
 
 def save_network(
@@ -37,9 +39,10 @@ def save_network(
 
     tensors = {name: t.detach().cpu().half().contiguous() for name, t in network.state_dict().items()}
     if statistics is not None:
-        numbers = (statistics.mean, statistics.whitening)
-        names = statistic_shapes(network.config)
-        tensors |= {n: torch.from_numpy(array).half() for n, array in zip(names, numbers, strict=True)}
+        tensors |= _halves(statistic_shapes(network.config), statistics.mean, statistics.whitening)
+        if statistics.kinds is not None:
+            kinds = statistics.kinds
+            tensors |= _halves(kind_shapes(network.config), kinds.means, kinds.whitening)
     known = known or Knowledge()
     file = ConfigFile(schema=1, model="simart-nano", config=network.config, knowledge=known)
     partial = folder / f"{WEIGHTS_FILE}.partial"
@@ -51,6 +54,10 @@ def save_network(
         partial.replace(folder / WEIGHTS_FILE)
     except OSError as error:
         raise OutputError(f"cannot write the model to {folder}: {error.strerror or error}") from error
+
+
+def _halves(names: Iterable[str], *arrays: Float32Array) -> dict[str, torch.Tensor]:
+    return {name: torch.from_numpy(one).half() for name, one in zip(names, arrays, strict=True)}
 
 
 @dataclass(frozen=True, eq=False)

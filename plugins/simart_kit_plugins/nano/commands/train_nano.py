@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..network import NanoNetwork
     from ..training.loop import NanoRow
     from ..training.plan import TrainingPlan
-    from ..training.pool import Shard
+    from ..training.pool import Progress, Shard
     from ..training.scores import NanoScore
 
 Run = Annotated[Path, typer.Option("--run", metavar="DIR", help="Folder of the run.")]
@@ -32,6 +32,14 @@ HeldOut = Annotated[
         min=1,
         metavar="N",
         help="Objects to judge on, and to measure novelty by: with fewer than some hundreds, all looks new.",
+    ),
+]
+OfEach = Annotated[
+    int | None,
+    typer.Option(
+        min=0,
+        metavar="N",
+        help="Objects of each category to measure by how alike they are; with none, fewer are recognised.",
     ),
 ]
 Rate = Annotated[float | None, typer.Option(metavar="X", help="Step size of AdamW.")]
@@ -67,6 +75,7 @@ def train_nano(
     steps: Steps = None,
     batch_size: Batch = None,
     held_out: HeldOut = None,
+    of_each: OfEach = None,
     skin_share: SkinShare = None,
     learning_rate: Rate = None,
     start: Start = None,
@@ -93,6 +102,7 @@ def train_nano(
         "steps": steps,
         "batch_size": batch_size,
         "held_out": held_out,
+        "of_each": of_each,
         "skin_share": skin_share,
         "learning_rate": learning_rate,
         "start": str(start) if start else None,
@@ -168,7 +178,8 @@ def _performed(
         plan = with_names(plan, examples)
         network = _so_far(plan, run) if evaluate else train(plan, examples, run, _Printer(plan, quiet))
         known = counted(plan.network.categories, plan.seed)
-        save_network(network, run / "model", known, usual_tokens(network, plan))
+        usual = usual_tokens(network, plan, processes, _progress("measured", quiet))
+        save_network(network, run / "model", known, usual)
     judged = {"categories trained on": pool.SEEN, "unseen categories": pool.UNSEEN}
     return {name: score(network, pool.read(files[use])) for name, use in judged.items() if files[use]}
 
@@ -176,11 +187,15 @@ def _performed(
 def _make(files: list[Shard], processes: int, quiet: bool) -> None:
     from ..training.pool import make
 
-    def progress(done: int, of: int) -> None:
-        if not quiet:
-            print(f"objects made: {done} of {of}", file=sys.stderr, flush=True)
+    make(files, processes, _progress("made", quiet))
 
-    make(files, processes, progress)
+
+def _progress(what: str, quiet: bool) -> Progress:
+    def tell(done: int, of: int) -> None:
+        if not quiet:
+            print(f"objects {what}: {done} of {of}", file=sys.stderr, flush=True)
+
+    return tell
 
 
 def _so_far(plan: TrainingPlan, run: Path) -> NanoNetwork:

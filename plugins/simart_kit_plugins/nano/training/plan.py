@@ -34,6 +34,9 @@ class TrainingPlan(Table):
     held_out: int = Field(
         default=600, gt=0, description="Objects to judge on, of another seed; novelty is measured by as many."
     )
+    of_each: int = Field(
+        default=10, ge=0, description="Objects of each category by which it is told how alike these are."
+    )
     unseen: tuple[str, ...] = Field(default=UNSEEN, description="Categories to judge on and not to train on.")
     static_share: float = Field(default=0.2, ge=0, le=1, description="Share of objects that do not move.")
     nameless_share: float = Field(

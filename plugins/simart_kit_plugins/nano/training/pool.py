@@ -6,6 +6,7 @@ import multiprocessing
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -21,6 +22,8 @@ from .plan import TrainingPlan
 
 # Told after each file: objects done, and of how many.
 Progress = Callable[[int, int], None]
+Job = TypeVar("Job")
+Done = TypeVar("Done")
 SHARD = 500
 # Streams of random numbers: objects to train on, to judge on, and to judge on of unseen categories.
 TRAIN, SEEN, UNSEEN = range(3)
@@ -94,7 +97,7 @@ def make(files: Sequence[Shard], processes: int, progress: Progress) -> None:
     try:
         for shard in files[:1]:
             shard.path.parent.mkdir(parents=True, exist_ok=True)
-        for count in _made(missing, processes):
+        for count in each(_make, missing, processes):
             done += count
             progress(done, total)
     except OSError as error:
@@ -106,13 +109,14 @@ def read(files: Sequence[Shard]) -> list[Stored]:
     return [one for shard in files for one in load(shard.path)]
 
 
-def _made(missing: Sequence[Shard], processes: int) -> Iterator[int]:
-    if processes < 2 or len(missing) < 2:
-        yield from map(_make, missing)
+def each(work: Callable[[Job], Done], jobs: Sequence[Job], processes: int) -> Iterator[Done]:
+    """What comes of each job, in their order, by so many processes."""
+    if processes < 2 or len(jobs) < 2:
+        yield from map(work, jobs)
         return
     # Forked copies of a process with threads may hang.
     with multiprocessing.get_context("spawn").Pool(processes) as workers:
-        yield from workers.imap_unordered(_make, missing)
+        yield from workers.imap(work, jobs)
 
 
 def _make(shard: Shard) -> int:
