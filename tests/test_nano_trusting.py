@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from simart_kit_plugins.nano.predicting import PredictedPart, Prediction
 from simart_kit_plugins.nano.proposals import Proposal
-from simart_kit_plugins.nano.trusting import enough, heeded, leads, settled
+from simart_kit_plugins.nano.trusting import enough, heeded, leads, settled, stands_still
 
 from simart_kit import Joint, Limits, PartGuess
 
@@ -128,3 +128,10 @@ def test_geometry_leads_in_what_is_not_recognised_if_it_finds_anything():
     new = said(discord=0.008, novelty=1.5)
     assert not leads(new, [proposal("prismatic")], [proposal("revolute")])
     assert leads(new, [proposal("prismatic")], [])
+
+
+def test_what_is_recognised_and_has_nothing_moving_is_static_more_readily():
+    planter = said(discord=0.004, novelty=1.0)
+    assert [stands_still(planter, chance) for chance in (0.65, 0.75, 0.96)] == [False, True, True]
+    for other in (said(part(LID, 0.4), discord=0.004, novelty=1.0), said(discord=0.004, novelty=1.5)):
+        assert [stands_still(other, chance) for chance in (0.65, 0.75, 0.96)] == [False, False, True]

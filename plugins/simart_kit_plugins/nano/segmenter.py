@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 
 
 _SKIN = "the surface is one fused skin, in which parts are often missed or wrong: look at it"
-# Nothing moves from this chance on that the object is of a category of which nothing does.
-_STILL = 0.95
 # Of more faces geometry is asked only once it is known that something moves: it takes longer than it saves.
 _MANY = 100_000
 
@@ -92,7 +90,7 @@ class Nano(Segmenter):
         from .showing import evidence
         from .sliding_leaves import with_slides
         from .stored_model import read_knowledge, shipped_folder
-        from .trusting import enough, settled
+        from .trusting import enough, settled, stands_still
 
         folder = Path(self.options.model) if self.options.model else shipped_folder()
         known = read_knowledge(folder)
@@ -105,9 +103,7 @@ class Nano(Segmenter):
         said = saying.result()
         material = partial(known.material, said.category)
         still = sum(said.categories[name] for name in known.still)
-        if spec is not None and spec.moves:
-            still = 0.0
-        moves = still < _STILL
+        moves = (spec is not None and spec.moves) or not stands_still(said, still)
         if not moves:
             geometry = []
         elif asked and not at_once:
@@ -125,7 +121,11 @@ class Nano(Segmenter):
             found = self._of_pieces(mesh, said, seen, geometry, material, spec)
         assert found.face_segment is not None
         shown = evidence(found.mesh_of(mesh), found.face_segment, said, seen)
-        return replace(found, notes=_notes(said, seen, still, bar, len(found.parts) - 1), evidence=shown)
+        return replace(
+            found,
+            notes=_notes(said, seen, 0.0 if moves else still, bar, len(found.parts) - 1),
+            evidence=shown,
+        )
 
     def _of_pieces(
         self,
@@ -202,7 +202,7 @@ def _notes(said: Prediction, seen: MeshCloud, still: float, bar: float, parts: i
     kind = "patches of one skin" if seen.skin else "pieces that lie apart"
     known = said.category and f"taken for a {said.category} ({said.categories[said.category]:.2f})"
     what = known or "of no known kind"
-    if still >= _STILL:
+    if still:
         what += f", and nothing moves of such objects ({still:.2f} sure)"
     size, factor = said.size
     return (

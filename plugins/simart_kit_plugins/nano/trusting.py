@@ -28,6 +28,20 @@ _ALIEN = 1.75
 _HARDLY = 0.003
 # What is less likely than this to move is sure to stand still, in what is read much alike from all sides.
 _STILL = 0.02
+# How sure it has to be that an object is of a kind of which nothing moves: less so where it recognises the
+# object and sees nothing move.
+_STATIC, _STATIC_IF_NOTHING_MOVES = 0.95, 0.7
+
+
+def stands_still(said: Prediction, still: float) -> bool:
+    """Whether nothing of an object moves, whatever geometry finds on it.
+
+    Args:
+        said: of it, with all parts that are worth a thought.
+        still: chance of the kinds of which nothing moves.
+    """
+    nothing = said.recognised and not said.parts
+    return still >= (_STATIC_IF_NOTHING_MOVES if nothing else _STATIC)
 
 
 def enough(said: Prediction, least: float, skin: bool, alone: bool) -> float:
