@@ -32,7 +32,7 @@ _ALIKE, _ALIKE_IF_NOT_NEW, _NO_NEWER = 0.0005, 0.01, 1.1
 # It may be as new as it likes if it is that sure what it is, the sides hardly differ, and it is like others
 # of that kind: generated things of other kinds are taken for known ones less surely, and real ones are less
 # like them.
-_SURE_OF_KIND, _ALIKE_IF_OF_KIND, _LIKE_ITS_KIND = 0.8, 0.005, 1.9
+_SURE_OF_KIND, _ALIKE_IF_OF_KIND, _LIKE_ITS_KIND = 0.8, 0.005, 1.8
 
 
 @dataclass(frozen=True, eq=False)
