@@ -8,7 +8,7 @@ from simart_kit_plugins.nano.array_network import ArrayNetwork
 from simart_kit_plugins.nano.cloud import Cloud
 from simart_kit_plugins.nano.config import NanoConfig
 from simart_kit_plugins.nano.network import NanoNetwork
-from simart_kit_plugins.nano.novelty import TokenStatistics, gathered, tokens_of
+from simart_kit_plugins.nano.novelty import TokenStatistics, gathered, moments_of, tokens_of
 from simart_kit_plugins.nano.predicting import predict
 from simart_kit_plugins.nano.stored_model import read_model
 from simart_kit_plugins.nano.voting import say
@@ -44,13 +44,17 @@ def stack(count, seed, apart=0.2, gray=0.5):
     )
 
 
+def told_of(network, clouds):
+    return gathered([moments_of(tokens_of(say(network, one))) for one in clouds])
+
+
 def novelty(statistics, network, cloud):
     return statistics.novelty(tokens_of(say(network, cloud)))
 
 
 def test_what_was_gathered_from_is_one_new_and_what_is_unlike_it_more(network):
     stacks = [stack(2 + seed % 6, seed) for seed in range(40)]
-    statistics = gathered(network, stacks)
+    statistics = told_of(network, stacks)
     own = np.mean([novelty(statistics, network, one) for one in stacks])
     # A direction with hardly any spread counts less than its own.
     assert 0.5 < own <= 1.0 + 1e-3
@@ -62,7 +66,7 @@ def test_what_was_gathered_from_is_one_new_and_what_is_unlike_it_more(network):
 
 def test_tokens_are_white_after_whitening(network):
     stacks = [stack(4, seed) for seed in range(60)]
-    statistics = gathered(network, stacks)
+    statistics = told_of(network, stacks)
     tokens = np.concatenate([tokens_of(say(network, one))[1].reshape(-1, CONFIG.channels) for one in stacks])
     white = (tokens - statistics.mean[1]) @ statistics.whitening[1]
     covariance = np.cov(white.T, bias=True)
@@ -73,19 +77,19 @@ def test_tokens_are_white_after_whitening(network):
 
 def test_an_object_counts_as_much_however_many_pieces_it_has(network):
     few, many = stack(2, 1), stack(12, 2, gray=0.9)
-    once = gathered(network, [few, many])
-    alone = [gathered(network, [one]) for one in (few, many)]
+    once = told_of(network, [few, many])
+    alone = [told_of(network, [one]) for one in (few, many)]
     np.testing.assert_allclose(once.mean, (alone[0].mean + alone[1].mean) / 2, atol=1e-5)
 
 
 def test_one_object_alone_has_finite_statistics(network):
-    statistics = gathered(network, [stack(1, 0)])
+    statistics = told_of(network, [stack(1, 0)])
     assert np.isfinite(statistics.whitening).all()
     assert np.isfinite(novelty(statistics, network, stack(3, 1)))
 
 
 def test_a_prediction_tells_how_new_the_object_is_and_without_statistics_that_nobody_knows(network):
-    statistics = gathered(network, [stack(3, seed) for seed in range(10)])
+    statistics = told_of(network, [stack(3, seed) for seed in range(10)])
     cloud = stack(3, 11)
     assert predict(network, cloud, 4, statistics).novelty == novelty(statistics, network, cloud)
     alone = predict(network, cloud, 4)
@@ -94,7 +98,7 @@ def test_a_prediction_tells_how_new_the_object_is_and_without_statistics_that_no
 
 
 def test_statistics_are_kept_with_the_weights(trained, network, tmp_path):
-    statistics = gathered(network, [stack(3, seed) for seed in range(10)])
+    statistics = told_of(network, [stack(3, seed) for seed in range(10)])
     save_network(trained, tmp_path / "with", statistics=statistics)
     save_network(trained, tmp_path / "without")
     kept = read_model(tmp_path / "with")

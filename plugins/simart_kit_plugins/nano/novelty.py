@@ -6,7 +6,7 @@ and adversarial attacks" (2018), of two layers and without classes.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -14,10 +14,8 @@ import numpy as np
 
 from simart_kit.arrays import Float32Array, FloatArray
 
-from .array_network import ArrayNetwork
-from .cloud import Cloud
 from .kinds import KindStatistics
-from .voting import Said, say
+from .voting import Said
 from .whitening import whitening
 
 # Tokens of an object, (V, S, D) as seen from V sides: half way through the layers, and after the last.
@@ -51,19 +49,30 @@ def tokens_of(said: Said) -> Tokens:
     return said.middle[:, :count], said.tokens[:, :count]
 
 
-def gathered(network: ArrayNetwork, clouds: Iterable[Cloud]) -> TokenStatistics:
-    """The statistics of some objects, of each alike however many pieces it has.
+@dataclass(frozen=True, eq=False)
+class Moments:
+    """Of the tokens of an object, over its pieces and the sides that it is seen from.
 
-    Args:
-        network: that reads them.
-        clouds: at least one.
+    Attributes:
+        mean: (LAYERS, D).
+        square: (LAYERS, D, D), the mean of their outer products.
     """
-    firsts, seconds = list[FloatArray](), list[FloatArray]()
-    for cloud in clouds:
-        each = [one.reshape(-1, one.shape[2]).astype(np.float64) for one in tokens_of(say(network, cloud))]
-        firsts.append(np.stack([one.mean(axis=0) for one in each]))
-        seconds.append(np.stack([one.T @ one / len(one) for one in each]))
-    mean = np.mean(firsts, axis=0)
-    covariance = np.mean(seconds, axis=0) - mean[:, :, None] * mean[:, None, :]
-    white = np.stack([whitening(one) for one in covariance])
+
+    mean: FloatArray
+    square: FloatArray
+
+
+def moments_of(tokens: Tokens) -> Moments:
+    """The moments of an object's tokens."""
+    each = [one.reshape(-1, one.shape[2]).astype(np.float64) for one in tokens]
+    return Moments(
+        np.stack([one.mean(axis=0) for one in each]), np.stack([one.T @ one / len(one) for one in each])
+    )
+
+
+def gathered(objects: Sequence[Moments]) -> TokenStatistics:
+    """The statistics of some objects, at least one, of each alike however many pieces it has."""
+    mean = np.mean([one.mean for one in objects], axis=0)
+    square = np.mean([one.square for one in objects], axis=0)
+    white = np.stack([whitening(one) for one in square - mean[:, :, None] * mean[:, None, :]])
     return TokenStatistics(mean.astype(np.float32), white.astype(np.float32))

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -13,7 +12,6 @@ from simart_kit.mesh import Mesh
 from simart_kit.segments import find_segments
 
 from ..array_network import ArrayNetwork
-from ..cloud import Cloud
 from ..generate.catalogue import CATEGORIES, NAMELESS
 from ..generate.category import named
 from ..generate.data_set import generated
@@ -21,12 +19,21 @@ from ..generate.objects import GeneratedObject
 from ..kinds import kinds_of, place_of
 from ..meshes import mesh_cloud
 from ..network import NanoNetwork
-from ..novelty import TokenStatistics, gathered, tokens_of
+from ..novelty import Moments, TokenStatistics, gathered, moments_of, tokens_of
 from ..voting import say
 from .plan import TrainingPlan
 from .pool import Progress, each
 
-_AT_ONCE = 100  # objects that a process measures before it tells
+_AT_ONCE = 100  # objects that a process reads before it tells
+
+
+@dataclass(frozen=True, eq=False)
+class _Read:
+    """Of an object: the number of its category, its place, and its moments if these are asked for."""
+
+    kind: int
+    place: FloatArray
+    moments: Moments | None
 
 
 def usual_tokens(
@@ -37,34 +44,36 @@ def usual_tokens(
     Args:
         network: that reads them.
         plan: of its training.
-        processes: that measure the latter, some at a time.
-        progress: told how many of them are.
+        processes: that read, some objects at a time.
+        progress: told how many are read.
     """
     weights = {name: tensor.detach().cpu().float().numpy() for name, tensor in network.state_dict().items()}
     reading, known = ArrayNetwork(network.config, weights), len(plan.network.categories)
-    statistics = gathered(reading, (cloud for _, cloud in _clouds(plan, range(plan.held_out))))
-    total, told = plan.of_each * known, list[tuple[int, FloatArray]]()
-    if not total:
-        return statistics
-    jobs = [range(first, min(first + _AT_ONCE, total)) for first in range(0, total, _AT_ONCE)]
-    for some in each(partial(_places, reading, plan), jobs, processes):
+    of_kinds, told = plan.of_each * known, list[_Read]()
+    count = max(plan.held_out, of_kinds)
+    jobs = [range(first, min(first + _AT_ONCE, count)) for first in range(0, count, _AT_ONCE)]
+    for some in each(partial(_read, reading, plan), jobs, processes):
         told += some
         if progress is not None:
-            progress(len(told), total)
-    return replace(statistics, kinds=kinds_of(told, known))
+            progress(len(told), count)
+    statistics = gathered([one.moments for one in told if one.moments is not None])
+    if not of_kinds:
+        return statistics
+    kinds = kinds_of([(one.kind, one.place) for one in told[:of_kinds]], known)
+    return replace(statistics, kinds=kinds)
 
 
-def _places(network: ArrayNetwork, plan: TrainingPlan, numbers: range) -> list[tuple[int, FloatArray]]:
-    return [(kind, place_of(tokens_of(say(network, cloud)))) for kind, cloud in _clouds(plan, numbers)]
-
-
-def _clouds(plan: TrainingPlan, numbers: range) -> Iterator[tuple[int, Cloud]]:
-    """Some of the objects, of all categories in turn, and the number of the category of each."""
-    names = plan.network.categories or NAMELESS
+def _read(network: ArrayNetwork, plan: TrainingPlan, numbers: range) -> list[_Read]:
+    """Some of the objects, of all categories in turn."""
+    names, read = plan.network.categories or NAMELESS, list[_Read]()
     for number in numbers:
         turn, kind = divmod(number, len(names))
         mesh = _mesh(generated(named(names[kind], CATEGORIES), plan.seed, turn))
-        yield kind, mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(number)).cloud
+        cloud = mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(number)).cloud
+        tokens = tokens_of(say(network, cloud))
+        moments = moments_of(tokens) if number < plan.held_out else None
+        read.append(_Read(kind, place_of(tokens), moments))
+    return read
 
 
 def _mesh(made: GeneratedObject) -> Mesh:
