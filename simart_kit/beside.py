@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, Generic, ParamSpec, Protocol, TypeVar, runtime_checkable
 
@@ -36,6 +37,7 @@ class Beside:
         if wanted:
             self.start()
         self._talking = ThreadPoolExecutor(1)  # starts no thread before there is something to say
+        self._asked: list[Future[Any]] = []
         self._behind: list[Later[Any]] = []
 
     def start(self) -> None:
@@ -61,7 +63,7 @@ class Beside:
                     process.stdin.close()
 
     def ask(self, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> Later[T]:
-        """Let a function be called there, after those that were asked for before.
+        """Let a function be called there, after those that were asked for before, or here if that is sooner.
 
         Args:
             function: of a module that can be imported.
@@ -69,9 +71,8 @@ class Beside:
             **kwargs: the same.
         """
         later = self._planned(partial(function, *args, **kwargs))
-        if not any(waiting.runs for waiting in self._behind):  # that takes long: this process is faster
-            for planned in (later, *self._behind):
-                planned.begin()
+        later.begin()
+        self.go_on()
         return later
 
     def ask_behind(self, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> Later[T]:
@@ -80,6 +81,11 @@ class Beside:
         self._behind.append(later)
         return later
 
+    def go_on(self) -> None:
+        """Let what waits behind the next question begin, for there is none."""
+        for waiting in self._behind:
+            waiting.begin()
+
     def _planned(self, here: Callable[[], T]) -> Later[T]:
         if self._process is None:
             return Later(here, None)
@@ -87,7 +93,32 @@ class Beside:
             question = pickle.dumps(here, pickle.HIGHEST_PROTOCOL)
         except (pickle.PicklingError, AttributeError, TypeError):  # a function or a value of the caller's own
             return Later(here, None)
-        return Later(here, partial(self._talking.submit, _answer, self._process, question))
+        return Later(here, partial(self._sent, self._process, question))
+
+    def _sent(self, process: subprocess.Popen[bytes], question: bytes) -> _Turn:
+        """The answer to come, behind those that are not here yet."""
+        before = tuple(answer for answer in self._asked if not answer.done())
+        turn = _Turn(self._talking.submit(_answer, process, question), before)
+        self._asked = [*before, turn.answer]
+        return turn
+
+
+@dataclass(frozen=True, eq=False)
+class _Turn:
+    """A question's place among those that another process is asked.
+
+    Attributes:
+        answer: to come.
+        before: answers to what it was asked for before.
+    """
+
+    answer: Future[Any]
+    before: tuple[Future[Any], ...]
+
+    def given_up(self) -> bool:
+        """Whether it is no more to be answered there, for it still waits for those before it."""
+        waits = not all(answer.done() for answer in self.before)
+        return self.answer.cancelled() or (waits and self.answer.cancel())
 
 
 class Later(Generic[T]):
@@ -98,25 +129,32 @@ class Later(Generic[T]):
         there: asks for it there; None where nobody calls it.
     """
 
-    def __init__(self, here: Callable[[], T], there: Callable[[], Future[T]] | None) -> None:
+    def __init__(self, here: Callable[[], T], there: Callable[[], _Turn] | None) -> None:
         self._here, self._there = here, there
-        self._answer: Future[T] | None = None
+        self._turn: _Turn | None = None
 
     @property
     def runs(self) -> bool:
         """Whether it was asked for there, and the answer is not here yet."""
-        return self._answer is not None and not self._answer.done()
+        return self._turn is not None and not self._turn.answer.done()
 
     def begin(self) -> None:
         """Ask for it there, unless that is done."""
-        if self._there is not None and self._answer is None:
-            self._answer = self._there()
+        if self._there is not None and self._turn is None:
+            self._turn = self._there()
 
     def result(self) -> T:
-        """What it returns, or raises; done now where the other process was not asked, or could not do it."""
-        if self._answer is None or isinstance(self._answer.exception(), _EndedError):
+        """What it returns, or raises.
+
+        It is done now where the other process was not asked, is still at what it was asked for before, or
+        could not do it.
+        """
+        self._there = None  # it is wanted now: nobody need begin it any more
+        turn = self._turn
+        if turn is None or turn.given_up() or isinstance(turn.answer.exception(), _EndedError):
             return self._here()
-        return self._answer.result()
+        answer: T = turn.answer.result()
+        return answer
 
 
 class _EndedError(Exception):
@@ -129,6 +167,21 @@ class HelpedModifier(Protocol):
 
     def modify_beside(self, asset: Asset, beside: Beside) -> Asset:
         """The same asset as `modify` gives."""
+
+
+@runtime_checkable
+class EarlyModifier(Protocol):
+    """A modifier that can have another process begin while those before it still correct joints."""
+
+    def begun(self, asset: Asset, beside: Beside) -> Modifier:
+        """One that makes the same of any asset, and does so sooner if surface and parts stay as they are."""
+
+
+def begun_by(modifier: Modifier, asset: Asset, beside: Beside) -> Modifier:
+    """The modifier, which has begun if it can and there is another process."""
+    if beside.helps and isinstance(modifier, EarlyModifier):
+        return modifier.begun(asset, beside)
+    return modifier
 
 
 def modify_by(modifier: Modifier, asset: Asset, beside: Beside) -> Asset:

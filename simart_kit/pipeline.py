@@ -13,7 +13,7 @@ from . import render
 from .assemble import Articulation, articulation, assemble, checked
 from .asset import Asset, clean_name
 from .asset_io import save_asset
-from .beside import Beside, modify_by
+from .beside import Beside, begun_by, modify_by
 from .checks import run_checks
 from .checks.subject import Subject
 from .errors import SimartKitError, StageError
@@ -23,7 +23,7 @@ from .mesh import Mesh, Note, UpAxis
 from .output import PROVENANCE, commit, forget_failure, hashes, keep_failure, left_over, staging
 from .physics_overrides import overridden
 from .picturing import Picture, begun, finished
-from .plugins import Plugins
+from .plugins import Plugins, Registration
 from .provenance import provenance, write_json
 from .recipe import Recipe, build, build_checks, check_extras, load_recipe
 from .report import Report
@@ -172,18 +172,30 @@ def _modify(
     runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset, stated: bool, beside: Beside
 ) -> tuple[Asset, Picture | None]:
     """The asset, and its picture, begun before the last stage of those that leave joints as they are."""
-    picture, kept = None, []
+    picture, kept, ahead = None, [], False
     stages = [(use.use, *build(use, Modifier, plugins, recipe.seed)) for use in recipe.modify]
-    leaving = [stage for _, stage, _ in stages if not stage.corrects_joints]
-    for use, stage, registration in stages:
+    leaving = sum(not stage.corrects_joints for _, stage, _ in stages)
+    while stages:
+        use, stage, registration = stages.pop(0)
+        leaving -= not stage.corrects_joints
         if stated and stage.corrects_joints:
             kept.append(use)
             continue
-        if beside.helps and stage in leaving[-1:]:
+        if stage.corrects_joints and not ahead:
+            stages, ahead = [(u, _ahead(s, r, asset, beside), r) for u, s, r in stages], True
+        elif not stage.corrects_joints and not leaving and beside.helps:
             picture = begun(asset, _preview(runner), beside)
         asset = runner.stage("modify", registration, _modified, asset, stage, beside)
     text = f"the file states its joints, so they are left as they are by {', '.join(kept)}"
     return asset.with_notes("load", "info", [text] if kept else []), picture
+
+
+def _ahead(modifier: Modifier, registration: Registration, asset: Asset, beside: Beside) -> Modifier:
+    """The modifier, which another process may begin while others correct joints."""
+    try:
+        return begun_by(modifier, asset, beside)
+    except Exception as cause:
+        raise registration.failure(cause) from cause
 
 
 def _preview(runner: Runner) -> Path:

@@ -82,6 +82,28 @@ class TestWhatIsNotWantedSoon:
         assert helper.ask(os.getpid).result() == there
 
 
+class TestWhatWaitsForSomethingElse:
+    def test_is_done_here_if_it_is_wanted_before_its_turn(self, helper: Beside) -> None:
+        first = helper.ask(time.sleep, 1.0)
+        second, third = helper.ask(os.getpid), helper.ask(os.getpid)
+        assert second.result() == second.result() == os.getpid()
+        assert first.runs
+        first.result()
+        assert third.result() == helper.ask(os.getpid).result() != os.getpid()
+
+    def test_and_is_not_wanted_soon_begins_when_it_is_told_to(self, helper: Beside) -> None:
+        late = helper.ask_behind(os.getpid)
+        helper.go_on()
+        assert late.result() == helper.ask(os.getpid).result() != os.getpid()
+
+    def test_is_not_begun_there_once_it_was_done_here(self, helper: Beside) -> None:
+        late = helper.ask_behind(os.getpid)
+        assert late.result() == os.getpid()
+        helper.go_on()
+        assert not late.runs
+        assert late.result() == os.getpid()
+
+
 def test_what_a_function_prints_is_no_answer(helper: Beside) -> None:
     assert helper.ask(print, "hello").result() is None
     assert helper.ask(operator.add, 1, 1).result() == 2

@@ -198,6 +198,21 @@ def test_contract_finds_a_modifier_that_makes_another_asset_with_help() -> None:
     keeps(ModifierContract, fakes.modifier(), "test_help_changes_nothing")
 
 
+class Hasty(fakes.modifier()):  # type: ignore[misc]
+    def begun(self, asset: sk.Asset, beside: Beside) -> sk.Modifier:
+        made: sk.Modifier = fakes.modifier(lambda other: loosened(asset))()
+        return made
+
+
+def test_contract_finds_a_modifier_that_makes_another_asset_if_it_begins_early(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("simart_kit.beside.usable_cores", lambda: 2)
+    with pytest.raises(AssertionError, match="begun"):
+        keeps(ModifierContract, Hasty, "test_an_early_start_changes_nothing")
+    keeps(ModifierContract, fakes.modifier(), "test_an_early_start_changes_nothing")
+
+
 class Litterer(fakes.exporter()):  # type: ignore[misc]
     def export(self, asset: sk.Asset, directory: Path) -> Path:
         (directory.parent / "notes.txt").write_text("left behind")

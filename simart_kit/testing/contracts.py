@@ -22,7 +22,7 @@ from pydantic import ValidationError
 from ..arrays import IntArray
 from ..assemble import assemble, checked
 from ..asset import Asset, Joint
-from ..beside import Beside, HelpedModifier, modify_by
+from ..beside import Beside, EarlyModifier, HelpedModifier, begun_by, modify_by
 from ..checks import CheckResult
 from ..checks.subject import Subject
 from ..errors import BadInputError
@@ -233,6 +233,13 @@ class ModifierContract(StageContract):
         with Beside(isinstance(stage, HelpedModifier)) as another:
             helped = modify_by(stage, self.asset(), another)
         assert fingerprint(helped) == fingerprint(stage.modify(self.asset())), "modify_beside() gives another"
+
+    def test_an_early_start_changes_nothing(self) -> None:
+        stage, asset, another = self.make(), self.asset(), meshes.chain_asset()
+        with Beside(isinstance(stage, EarlyModifier)) as beside:
+            begun = begun_by(stage, asset, beside)
+            early = [fingerprint(modify_by(begun, one, beside)) for one in (asset, another)]
+        assert early == [fingerprint(stage.modify(one)) for one in (asset, another)], "begun() gives another"
 
     def test_leaves_the_asset_alone(self) -> None:
         asset = self.asset()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from copy import copy
 from dataclasses import replace
 from typing import Literal
 
@@ -25,7 +26,7 @@ from simart_kit.hookspecs import Register
 from simart_kit.separation import Overlap, overlaps, separated
 from simart_kit.wheels import wheels
 
-from .shaping import Mode, Shaper, Shapes
+from .shaping import Early, Mode, Shaper, Shapes
 
 _MOST_FACES = 60_000  # of a part that shapes are fitted to; finer ones are coarsened first
 _LEAST_PIECES = 32  # that even a part with few of the faces may come apart into
@@ -65,6 +66,7 @@ class Collision(sk.Modifier):
         )
 
     options: Options
+    _early: Early | None = None
 
     def modify(self, asset: sk.Asset) -> sk.Asset:
         """The asset with new collision shapes.
@@ -80,15 +82,10 @@ class Collision(sk.Modifier):
         lacking = options.mode in ("auto", "decompose") and lacks(options.tool)
         if lacking:
             raise sk.BadInputError(f"modifier collision: {options.tool} is not installed: {lacking}")
-        round_ones = wheels(asset) if options.mode == "auto" else {}
-        rolling = {name: Decomposition((cylinder,)) for name, cylinder in round_ones.items()}
-        surfaces = {
-            part.name: _surface(asset, index)
-            for index, part in enumerate(asset.parts)
-            if part.name not in rolling
-        }
+        rolling, surfaces = self._parted(asset)
         shaper = Shaper(surfaces, options.mode, beside)
-        made = rolling | shaper.made(surfaces, self._budget(Budget().tight, options.tool_timeout), {})
+        early = self._early.shapes if self._early and self._early.fits(asset, surfaces) else None
+        made = rolling | shaper.made(surfaces, self._first_budget, {}, early)
         done = self._placed(asset, made)
         found: Sequence[Overlap] = overlaps(done)
         if found and options.mode == "auto":
@@ -103,6 +100,23 @@ class Collision(sk.Modifier):
             "collision", "info", [_counts(options.mode, done), *_told(found), *_freed(freed)]
         )
         return done.with_notes("collision", "warning", problems)
+
+    def begun(self, asset: sk.Asset, beside: Beside) -> Collision:
+        """One whose shapes another process makes already, if one part has most of the faces: of that part."""
+        _, surfaces = self._parted(asset)
+        shaper = Shaper(surfaces, self.options.mode, beside)
+        if not shaper.uneven:
+            return self
+        early = copy(self)
+        early._early = Early(asset, frozenset(surfaces), shaper.begun(self._first_budget))
+        return early
+
+    def _parted(self, asset: sk.Asset) -> tuple[Shapes, dict[str, Surface]]:
+        """The cylinders of wheels, and the surfaces of all other parts."""
+        round_ones = wheels(asset) if self.options.mode == "auto" else {}
+        rolling = {name: Decomposition((cylinder,)) for name, cylinder in round_ones.items()}
+        names = {index: part.name for index, part in enumerate(asset.parts) if part.name not in rolling}
+        return rolling, {name: _surface(asset, index) for index, name in names.items()}
 
     def _refined(
         self,
@@ -134,6 +148,10 @@ class Collision(sk.Modifier):
         changed = {name: replace(asset.part(name), collision=m.shapes) for name, m in made.items()}
         margin = self.options.margin
         return separated(asset.with_parts(changed), margin) if margin else asset.with_parts(changed)
+
+    @property
+    def _first_budget(self) -> Budget:
+        return self._budget(Budget().tight, self.options.tool_timeout)
 
     def _budget(self, tight: float, seconds: float) -> Budget:
         options = self.options

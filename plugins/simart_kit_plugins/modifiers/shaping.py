@@ -2,20 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from dataclasses import replace
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
-from simart_kit.beside import Beside
+from simart_kit import Asset
+from simart_kit.beside import Beside, Later
 from simart_kit.decompose import Budget, Decomposition, Surface, decompose_by_tool, decompose_surface
 from simart_kit.fitting import aligned_box
 from simart_kit.hulls import MIN_THICKNESS, convex_hull
 
 Mode = Literal["auto", "decompose", "hull", "box", "none"]
 Shapes = dict[str, Decomposition]  # by name of the part
+_UNEVEN = 2  # times the faces of the second row: with more, the other process would idle while it waits
 _KEPT = 8  # so many times less than an equal share of the work is kept for each part that comes later
+
+
+@dataclass(frozen=True, eq=False)
+class Early:
+    """Shapes of the first row that another process is making already.
+
+    Attributes:
+        asset: whose.
+        names: of all parts that get shapes so.
+        shapes: of those in the first row.
+    """
+
+    asset: Asset
+    names: frozenset[str]
+    shapes: Later[Shapes]
+
+    def fits(self, asset: Asset, names: Collection[str]) -> bool:
+        """Whether they are those of another asset, in which joints may differ."""
+        same = self.asset.mesh is asset.mesh and self.names == set(names)
+        return same and np.array_equal(self.asset.face_part, asset.face_part)
 
 
 class Shaper:
@@ -27,34 +49,54 @@ class Shaper:
     Args:
         surfaces: of the parts, by name.
         mode: of the modifier `collision`.
-        beside: who makes those of the second row.
+        beside: who makes those of one row.
     """
 
     def __init__(self, surfaces: Mapping[str, Surface], mode: Mode, beside: Beside) -> None:
         self._surfaces, self._mode, self._beside = surfaces, mode, beside
         self._rows = _rows(surfaces)
 
-    def made(self, names: Collection[str], budget: Budget, before: Shapes) -> Shapes:
+    @property
+    def uneven(self) -> bool:
+        """Whether the first row takes so much longer that it had better begin early."""
+        first, second = (sum(len(self._surfaces[name].faces) for name in row) for row in self._rows)
+        return first > _UNEVEN * second
+
+    def begun(self, budget: Budget) -> Later[Shapes]:
+        """Shapes of the first row, which the other process makes while this one does something else."""
+        return self._beside.ask(shapes_of, self._sent(self._rows[0]), self._mode, budget)
+
+    def made(
+        self, names: Collection[str], budget: Budget, before: Shapes, early: Later[Shapes] | None = None
+    ) -> Shapes:
         """Shapes of some of the parts; none where no work is left.
 
         Args:
             names: of the parts.
             budget: of each row, if nothing had been done before.
             before: what has been done, in either row.
+            early: what `begun` gave for the same budget, if all parts are wanted and nothing has been done.
         """
         left = replace(budget, work=budget.work - sum(m.work for m in before.values()))
         if left.work <= 0:
             return {}
         mine, theirs = ({name: self._surfaces[name] for name in row if name in names} for row in self._rows)
-        if self._beside.helps:  # asked even of an empty row: what waits behind it begins
-            sent = {name: Surface(s.vertices, s.faces, s.most) for name, s in theirs.items()}
-            later = self._beside.ask(shapes_of, sent, self._mode, left)
+        if early is not None:
+            self._beside.go_on()
+            found = shapes_of(theirs, self._mode, left) | early.result()
+        elif self._beside.helps:
+            later = self._beside.ask(shapes_of, self._sent(theirs), self._mode, left)
             found = shapes_of(mine, self._mode, left) | later.result()
         else:  # the time for the tool is for all of them
             found = shapes_of(mine, self._mode, left)
             seconds = max(left.tool_seconds - sum(m.tool_seconds for m in found.values()), 0.0)
             found |= shapes_of(theirs, self._mode, replace(left, tool_seconds=seconds))
         return {name: found[name] for name in self._surfaces if name in found}
+
+    def _sent(self, names: Iterable[str]) -> dict[str, Surface]:
+        """Some of the surfaces, without what is kept with them."""
+        chosen = {name: self._surfaces[name] for name in names}
+        return {name: Surface(s.vertices, s.faces, s.most) for name, s in chosen.items()}
 
 
 def shapes_of(surfaces: Mapping[str, Surface], mode: Mode, budget: Budget) -> Shapes:
