@@ -10,6 +10,7 @@ from simart_kit.arrays import FloatArray, IntArray
 
 from .cloud import Cloud
 from .grouping import Group, group_of
+from .repeats import repeated
 from .siblings import shaped_alike
 from .voting import Said
 
@@ -25,7 +26,7 @@ def parted(found: Sequence[Group], said: Said, cloud: Cloud, area: FloatArray) -
     """The groups, those that are several parts in these: casters, or doors side by side, are hardly ever one.
 
     Clusters of pieces that lie apart are, unless it is nearly sure that they belong together; and whatever is
-    said, if each is shaped as another part is: of seven keys, no two are one.
+    said, if each is shaped as another part is: of seven keys, no two are one. `repeats` parts what touches.
 
     Args:
         found: groups of pieces.
@@ -38,7 +39,7 @@ def parted(found: Sequence[Group], said: Said, cloud: Cloud, area: FloatArray) -
         others = [other.pieces for other in found if other is not group]
         parts = _apart(group.pieces, said, area) or _as_others(group.pieces, others, said, cloud, area)
         result += [group_of(p, said.moves, said.together, area) for p in parts] if parts else [group]
-    return result
+    return repeated(result, said, cloud, area)
 
 
 def _apart(pieces: IntArray, said: Said, area: FloatArray) -> list[IntArray]:

@@ -34,12 +34,29 @@ def shared_certainty(cloud: Cloud, parts: Sequence[IntArray], certainty: FloatAr
 
 def shaped_alike(cloud: Cloud, parts: Sequence[IntArray]) -> BoolArray:
     """(P, P) whether two parts, by their pieces, have boxes and areas alike."""
-    shape = np.array([_shape(cloud, pieces) for pieces in parts])
-    larger = np.maximum(shape[:, None], shape[None])
-    apart = np.abs(shape[:, None] - shape[None]) / np.maximum(larger, 1e-9)
+    shape = np.concatenate([_shape(cloud, pieces) for pieces in parts])
+    return alike(shape, shape)
+
+
+def alike(one: FloatArray, other: FloatArray) -> BoolArray:
+    """(N, M) whether shapes (N, 4) and (M, 4), as of `shapes_between`, are alike."""
+    larger = np.maximum(one[:, None], other[None])
+    apart = np.abs(one[:, None] - other[None]) / np.maximum(larger, 1e-9)
     # Of a thin part the thickness is mostly noise: it is compared with the part's length.
-    apart[..., :3] = np.abs(shape[:, None, :3] - shape[None, :, :3]) / np.maximum(larger[..., 2:3], 1e-9)
+    apart[..., :3] = np.abs(one[:, None, :3] - other[None, :, :3]) / np.maximum(larger[..., 2:3], 1e-9)
     return np.asarray((apart <= _ALIKE).all(axis=2))
+
+
+def shapes_between(lower: FloatArray, upper: FloatArray, area: FloatArray) -> FloatArray:
+    """(N, 4) of boxes the shorter level side, the height, and the longest side; and the area.
+
+    Args:
+        lower: (N, 3) corners of the boxes.
+        upper: (N, 3).
+        area: (N,) of what is in them.
+    """
+    x, y, z = (upper - lower).T
+    return np.column_stack([np.minimum(x, y), z, np.maximum(np.maximum(x, y), z), area])
 
 
 def nearest_carriers(
@@ -81,8 +98,7 @@ def _gap(one: FloatArray, other: FloatArray) -> float:
 
 
 def _shape(cloud: Cloud, pieces: IntArray) -> FloatArray:
-    """(4,) of its box the shorter level side, the height, and the longest side; and the area."""
+    """(1, 4) of what these pieces fill."""
     inside = np.isin(cloud.piece, pieces)
-    x, y, z = np.ptp(cloud.points[inside], axis=0)
-    level = sorted((x, y))
-    return np.array([level[0], z, max(level[1], z), float(cloud.area[inside].sum())])
+    points, area = cloud.points[inside], float(cloud.area[inside].sum())
+    return shapes_between(points.min(axis=0)[None], points.max(axis=0)[None], np.array([area]))
