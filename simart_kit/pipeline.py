@@ -220,7 +220,8 @@ def _write(
     else:
         runner.call("preview", "preview", render.write_preview, asset, _preview(runner))
     mains, unsupported = export_all(runner, plugins, recipe, asset)
-    checks = runner.call("check", "checks", run_checks, build_checks(recipe, plugins), Subject(mains, asset))
+    judges = build_checks(recipe, plugins)
+    checks = runner.call("check", "checks", run_checks, judges, Subject(mains, asset), beside)
     runner.settle()
     report = Report(runner.run.name, asset, checks, asset.notes + runner.notes, unsupported, runner.seconds)
     runner.tell("run_finished", report=report)

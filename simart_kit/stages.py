@@ -205,9 +205,14 @@ class Exporter(Stage):
 
 
 class Check(Stage):
-    """Judges a finished object by its files, and by the asset that they were made from, if known."""
+    """Judges a finished object by its files, and by the asset that they were made from, if known.
+
+    Attributes:
+        drives: whether it simulates one joint after the other, which another process may do meanwhile.
+    """
 
     kind = "check"
+    drives: ClassVar[bool] = False
 
     @abstractmethod
     def check(self, subject: Subject) -> CheckResult:

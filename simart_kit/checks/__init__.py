@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..arrays import Vec3
+from ..beside import ALONE, Beside
 from ..errors import BadInputError
 
 if TYPE_CHECKING:
     from ..plugins import Registration
     from ..stages import Check
     from .subject import Subject
+
+_MANY = 8  # moving joints from which on it takes longer to drive them than to read the files once more
 
 
 @dataclass(frozen=True)
@@ -58,39 +62,58 @@ class CheckResult:
         return found
 
 
-def run_checks(checks: Iterable[tuple[Check, Registration]], subject: Subject) -> tuple[CheckResult, ...]:
+def run_checks(
+    checks: Iterable[tuple[Check, Registration]], subject: Subject, beside: Beside = ALONE
+) -> tuple[CheckResult, ...]:
     """All verdicts, in order; files that cannot be read or simulated fail the checks that need them.
 
     Args:
         checks: each with where it came from, as `recipe.build_checks` makes them.
         subject: what is checked.
+        beside: who runs those that drive joints one after the other, of an object of many.
 
     Raises:
         StageError: a check raised anything else; its plugin is named.
     """
-    results, told = [], dict[str, str]()
-    for check, registration in checks:
-        try:
-            results.append(_verdict(check, registration, subject))
-        except BadInputError as error:
-            first = told.setdefault(str(error), check.name)
-            text = str(error) if first == check.name else f"cannot be judged, see {first}"
-            results.append(CheckResult(check.name, False, text))
+    given, told, outcomes = list(checks), dict[str, str](), dict[str, CheckResult | BadInputError]()
+    many = subject.moving >= _MANY
+    asked = {c.name: beside.ask(judged, c, subject.alone()) for c, _ in given if many and c.drives}
+    for check, registration in sorted(given, key=lambda pair: pair[0].name in asked):
+        later = asked.get(check.name)
+        outcomes[check.name] = _outcome(
+            later.result if later else partial(judged, check, subject), registration
+        )
+    results = []
+    for check, _ in given:
+        found = outcomes[check.name]
+        if isinstance(found, BadInputError):
+            first = told.setdefault(str(found), check.name)
+            text = str(found) if first == check.name else f"cannot be judged, see {first}"
+            found = CheckResult(check.name, False, text)
+        results.append(found)
     return tuple(results)
 
 
-def _verdict(check: Check, registration: Registration, subject: Subject) -> CheckResult:
+def judged(check: Check, subject: Subject) -> CheckResult:
+    """The verdict of one check, with MuJoCo's own words kept from the terminal."""
+    from ..bench.mujoco_loading import quiet_mujoco
+
+    with quiet_mujoco():
+        return check.check(subject)
+
+
+def _outcome(verdict: Callable[[], CheckResult], registration: Registration) -> CheckResult | BadInputError:
+    """The verdict, or why there can be none."""
     import mujoco
 
-    from ..bench.mujoco_loading import one_line, quiet_mujoco
+    from ..bench.mujoco_loading import one_line
 
     try:
-        with quiet_mujoco():
-            return check.check(subject)
+        return verdict()
     except mujoco.FatalError as error:
-        raise BadInputError(f"MuJoCo gave up: {one_line(error)}") from error
-    except BadInputError:
-        raise
+        return BadInputError(f"MuJoCo gave up: {one_line(error)}")
+    except BadInputError as error:
+        return error
     except Exception as cause:
         raise registration.failure(cause) from cause
 

@@ -38,6 +38,7 @@ class Push(Check):
     """
 
     name = "push"
+    drives = True
 
     class Options(StageOptions):
         """The push, and what is asked."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -43,6 +43,16 @@ class Subject:
     def simulated(self) -> Mapping[str, Path]:
         """Those files that say how the object moves."""
         return {name: self.files[name] for name in _SIMULATED if name in self.files}
+
+    @property
+    def moving(self) -> int:
+        """Joints of the asset that move; 0 where it is not known."""
+        return sum(joint.moves for joint in self.asset.joints) if self.asset is not None else 0
+
+    def alone(self) -> Subject:
+        """The same without what has been read and worked out of it, to be sent elsewhere."""
+        asset = self.asset and replace(self.asset, mesh=replace(self.asset.mesh))
+        return Subject(self.files, asset)
 
     @cached_property
     def findings(self) -> Mapping[str, tuple[Finding, ...]]:

@@ -17,6 +17,7 @@ class Travel(Check):
     """A motor without friction drives each joint from rest to both ends, others at rest or out of its way."""
 
     name = "travel"
+    drives = True
 
     class Options(StageOptions):
         """How fast."""
