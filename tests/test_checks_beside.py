@@ -14,6 +14,7 @@ from simart_kit import Asset, Check, CheckResult, Joint, Limits, Part, Subject
 from simart_kit.beside import Beside
 from simart_kit.checks import run_checks
 from simart_kit.checks.push import Push
+from simart_kit.checks.simulation import Simulation
 from simart_kit.checks.travel import Travel
 from simart_kit.errors import BadInputError, StageError
 from simart_kit.recipe import build_checks, load_recipe
@@ -79,6 +80,19 @@ def test_verdicts_are_the_same_and_in_order(
     assert [result.text for result in helped if not result.passed] == []
     # The other one is run here where this process is through with the rest before its turn.
     assert ("travel" in ran) is here
+
+
+def test_with_nobody_to_help_the_files_are_read_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    read, of_file = list[Path](), Simulation.of_file
+
+    def listening(path: Path) -> Simulation:
+        read.append(path)
+        return of_file(path)
+
+    monkeypatch.setattr(Simulation, "of_file", listening)
+    subject = subject_in(tmp_path, drawers(8), "mjcf")
+    run_checks([pair for pair in all_checks() if pair[0].drives], subject)
+    assert read == [subject.files["mjcf"]]
 
 
 def test_files_that_do_not_load_are_told_once(helper: Beside, tmp_path: Path) -> None:

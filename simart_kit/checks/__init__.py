@@ -76,7 +76,7 @@ def run_checks(
         StageError: a check raised anything else; its plugin is named.
     """
     given, told, outcomes = list(checks), dict[str, str](), dict[str, CheckResult | BadInputError]()
-    many = subject.moving >= _MANY
+    many = beside.helps and subject.moving >= _MANY
     asked = {c.name: beside.ask(judged, c, subject.alone()) for c, _ in given if many and c.drives}
     for check, registration in sorted(given, key=lambda pair: pair[0].name in asked):
         later = asked.get(check.name)

@@ -84,7 +84,7 @@ class Shaper:
         if early is not None:
             self._beside.go_on()
             found = shapes_of(theirs, self._mode, left) | early.result()
-        elif self._beside.helps:
+        elif self._beside.helps:  # asked even of an empty row: what waits behind it begins
             later = self._beside.ask(shapes_of, self._sent(theirs), self._mode, left)
             found = shapes_of(mine, self._mode, left) | later.result()
         else:  # the time for the tool is for all of them
