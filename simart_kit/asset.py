@@ -267,6 +267,10 @@ class Asset:
         _check_unique("joint", [j.name for j in self.joints])
         self._check_tree()
 
+    def bare(self) -> Asset:
+        """The same without what was worked out of it and is kept with it: to be sent to another process."""
+        return replace(self, mesh=replace(self.mesh))
+
     @cached_property
     def root(self) -> Part:
         """The part that no joint moves."""

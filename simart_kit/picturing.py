@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from . import render
@@ -29,8 +29,7 @@ class Picture:
 
 def begun(asset: Asset, path: Path, beside: Beside) -> Picture:
     """The picture of an asset, drawn behind what the other process is asked for next."""
-    sent = replace(asset, mesh=replace(asset.mesh))  # without what is kept with it, which takes its time
-    return Picture(asset, beside.ask_behind(render.write_preview, sent, path))
+    return Picture(asset, beside.ask_behind(render.write_preview, asset.bare(), path))
 
 
 def finished(picture: Picture | None, asset: Asset, path: Path, beside: Beside) -> Picture:

@@ -100,7 +100,7 @@ def test_files_that_do_not_load_are_told_once(helper: Beside, tmp_path: Path) ->
     damaged.write_text("<mujoco><body")
     subject = Subject({"mjcf": damaged}, drawers(8))
     chosen = [pair for pair in all_checks() if pair[0].name in ("travel", "push")]
-    helped, alone = run_checks(chosen, subject, helper), run_checks(chosen, subject.alone())
+    helped, alone = run_checks(chosen, subject, helper), run_checks(chosen, subject.bare())
     assert helped == alone
     assert "drawers.xml" in helped[0].text
     assert helped[1].text == "cannot be judged, see travel"
@@ -122,7 +122,7 @@ def test_a_check_of_a_plugin_that_fails_is_told_as_ever(error: Exception, helper
 def test_what_is_sent_is_without_what_was_worked_out(tmp_path: Path) -> None:
     subject = subject_in(tmp_path, drawers(2), "mjcf")
     assert subject.simulation.model.njnt == 2
-    sent = subject.alone()
+    sent = subject.bare()
     assert set(vars(sent)) == {"files", "asset"}
     assert sent.asset is not None
     assert fingerprint(sent.asset) == fingerprint(subject.asset)

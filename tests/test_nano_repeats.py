@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from simart_kit_plugins.nano.grouping import Group
+from simart_kit_plugins.nano.piece_boxes import PieceBoxes
 from simart_kit_plugins.nano.repeats import repeated
 
 from .test_nano_parting import Told
@@ -25,7 +26,7 @@ def told(boxes, between=0.8, within=0.97):
 
 def parts(said, *found):
     groups = [Group(np.array(pieces), 0.5) for pieces in found]
-    return [sorted(g.pieces.tolist()) for g in repeated(groups, said, said.cloud, said.area)]
+    return [sorted(g.pieces.tolist()) for g in repeated(groups, said, PieceBoxes.of(said.cloud), said.area)]
 
 
 def test_two_keys_that_others_look_like_are_two():

@@ -77,7 +77,7 @@ def run_checks(
     """
     given, told, outcomes = list(checks), dict[str, str](), dict[str, CheckResult | BadInputError]()
     many = beside.helps and subject.moving >= _MANY
-    asked = {c.name: beside.ask(judged, c, subject.alone()) for c, _ in given if many and c.drives}
+    asked = {c.name: beside.ask(judged, c, subject.bare()) for c, _ in given if many and c.drives}
     for check, registration in sorted(given, key=lambda pair: pair[0].name in asked):
         later = asked.get(check.name)
         outcomes[check.name] = _outcome(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -49,10 +49,9 @@ class Subject:
         """Joints of the asset that move; 0 where it is not known."""
         return sum(joint.moves for joint in self.asset.joints) if self.asset is not None else 0
 
-    def alone(self) -> Subject:
-        """The same without what has been read and worked out of it, to be sent elsewhere."""
-        asset = self.asset and replace(self.asset, mesh=replace(self.asset.mesh))
-        return Subject(self.files, asset)
+    def bare(self) -> Subject:
+        """The same without what has been read and worked out of it, to be sent to another process."""
+        return Subject(self.files, self.asset and self.asset.bare())
 
     @cached_property
     def findings(self) -> Mapping[str, tuple[Finding, ...]]:

@@ -10,8 +10,8 @@ from simart_kit.arrays import FloatArray, IntArray
 
 from .cloud import Cloud
 from .grouping import Group, group_of
+from .piece_boxes import PieceBoxes, alike
 from .repeats import repeated
-from .siblings import shaped_alike
 from .voting import Said
 
 # Pieces nearer than the first touch [sides of the object]; of one part surely those nearer than the last.
@@ -34,12 +34,12 @@ def parted(found: Sequence[Group], said: Said, cloud: Cloud, area: FloatArray) -
         cloud: of it.
         area: (S,) of the pieces, any unit.
     """
-    result = []
+    boxes, result = PieceBoxes.of(cloud), list[Group]()
     for group in found:
         others = [other.pieces for other in found if other is not group]
-        parts = _apart(group.pieces, said, area) or _as_others(group.pieces, others, said, cloud, area)
+        parts = _apart(group.pieces, said, area) or _as_others(group.pieces, others, said, boxes, area)
         result += [group_of(p, said.moves, said.together, area) for p in parts] if parts else [group]
-    return repeated(result, said, cloud, area)
+    return repeated(result, said, boxes, area)
 
 
 def _apart(pieces: IntArray, said: Said, area: FloatArray) -> list[IntArray]:
@@ -58,16 +58,16 @@ def _apart(pieces: IntArray, said: Said, area: FloatArray) -> list[IntArray]:
 
 
 def _as_others(
-    pieces: IntArray, others: Sequence[IntArray], said: Said, cloud: Cloud, area: FloatArray
+    pieces: IntArray, others: Sequence[IntArray], said: Said, boxes: PieceBoxes, area: FloatArray
 ) -> list[IntArray]:
     """The clusters, if all may be parts and each is shaped as another part; else none."""
     for touching in _TOUCHING if others else ():
         cluster, large = _clusters(pieces, said, area, touching)
         own = [pieces[cluster == k] for k in large]
-        if len(own) == cluster.max() + 1 > 1:
-            same = shaped_alike(cloud, [*own, *others])[: len(own), len(own) :]
-            if same.any(axis=1).all():
-                return own
+        if len(own) < 2 or len(own) <= cluster.max():
+            continue
+        if alike(boxes.shapes_of(own), boxes.shapes_of(others)).any(axis=1).all():
+            return own
     return []
 
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from simart_kit.arrays import BoolArray, FloatArray, IntArray
+from simart_kit.arrays import FloatArray, IntArray
 
-from .cloud import Cloud
 from .grouping import Group, group_of
-from .siblings import alike, shapes_between
+from .piece_boxes import PieceBoxes, alike
 from .voting import Said
 
 # Of more pieces it is not asked how they may be parted: there are too many ways.
@@ -22,7 +20,7 @@ _SEVERAL = 2
 _SURE = 0.95
 
 
-def repeated(found: Sequence[Group], said: Said, cloud: Cloud, area: FloatArray) -> list[Group]:
+def repeated(found: Sequence[Group], said: Said, boxes: PieceBoxes, area: FloatArray) -> list[Group]:
     """The groups, those of sets of pieces that are each shaped as several other parts in these sets.
 
     Each set has to be more surely of one part than any two are. What is parted may be what others are shaped
@@ -31,13 +29,13 @@ def repeated(found: Sequence[Group], said: Said, cloud: Cloud, area: FloatArray)
     Args:
         found: groups of pieces.
         said: of the object.
-        cloud: of it.
+        boxes: of its pieces.
         area: (S,) of the pieces, any unit.
     """
-    boxes, result, before = _Boxes.of(cloud), list(found), 0
+    result, before = list(found), 0
     while before < len(result) > _SEVERAL:
         before = len(result)
-        shape = np.concatenate([boxes.shapes(g.pieces, np.ones((1, len(g.pieces)), bool)) for g in result])
+        shape = boxes.shapes_of([group.pieces for group in result])
         result = [
             group_of(pieces, said.moves, said.together, area) if len(pieces) < len(group.pieces) else group
             for number, group in enumerate(result)
@@ -46,30 +44,8 @@ def repeated(found: Sequence[Group], said: Said, cloud: Cloud, area: FloatArray)
     return result
 
 
-@dataclass(frozen=True, eq=False)
-class _Boxes:
-    """Around each of S pieces: (S, 3) `lower` and `upper` corners, and (S,) `area` of what is in them."""
-
-    lower: FloatArray
-    upper: FloatArray
-    area: FloatArray
-
-    @classmethod
-    def of(cls, cloud: Cloud) -> _Boxes:
-        lower, upper = np.full((cloud.count, 3), np.inf), np.full((cloud.count, 3), -np.inf)
-        np.minimum.at(lower, cloud.piece, cloud.points)
-        np.maximum.at(upper, cloud.piece, cloud.points)
-        return cls(lower, upper, np.bincount(cloud.piece, cloud.area, cloud.count).astype(float))
-
-    def shapes(self, pieces: IntArray, sets: BoolArray) -> FloatArray:
-        """(N, 4) as of `shapes_between`, of (N, P) sets of P pieces."""
-        lower = np.where(sets[..., None], self.lower[pieces], np.inf).min(axis=1)
-        upper = np.where(sets[..., None], self.upper[pieces], -np.inf).max(axis=1)
-        return shapes_between(lower, upper, sets @ self.area[pieces])
-
-
 def _parted(
-    pieces: IntArray, others: FloatArray, boxes: _Boxes, said: Said, area: FloatArray
+    pieces: IntArray, others: FloatArray, boxes: PieceBoxes, said: Said, area: FloatArray
 ) -> list[IntArray]:
     """The pieces in sets shaped as several of (M, 4) other parts, or all together."""
     if not 1 < len(pieces) <= _MOST:

@@ -6,12 +6,11 @@ from collections.abc import Hashable, Sequence
 
 import numpy as np
 
-from simart_kit.arrays import BoolArray, FloatArray, IntArray
+from simart_kit.arrays import FloatArray, IntArray
 
 from .cloud import Cloud
+from .piece_boxes import PieceBoxes, alike
 
-# Extents and areas of siblings differ by no more than this share; sampling alone gives some.
-_ALIKE = 0.12
 # A part that one of several alike carries is as near to it, of the object's longest side; points lie apart.
 _BESIDE = 0.05
 
@@ -28,35 +27,9 @@ def shared_certainty(cloud: Cloud, parts: Sequence[IntArray], certainty: FloatAr
     """
     if not parts:
         return certainty
-    same = shaped_alike(cloud, parts)
+    shapes = PieceBoxes.of(cloud).shapes_of(parts)
+    same = alike(shapes, shapes)
     return np.asarray(same @ certainty / same.sum(axis=1))
-
-
-def shaped_alike(cloud: Cloud, parts: Sequence[IntArray]) -> BoolArray:
-    """(P, P) whether two parts, by their pieces, have boxes and areas alike."""
-    shape = np.concatenate([_shape(cloud, pieces) for pieces in parts])
-    return alike(shape, shape)
-
-
-def alike(one: FloatArray, other: FloatArray) -> BoolArray:
-    """(N, M) whether shapes (N, 4) and (M, 4), as of `shapes_between`, are alike."""
-    larger = np.maximum(one[:, None], other[None])
-    apart = np.abs(one[:, None] - other[None]) / np.maximum(larger, 1e-9)
-    # Of a thin part the thickness is mostly noise: it is compared with the part's length.
-    apart[..., :3] = np.abs(one[:, None, :3] - other[None, :, :3]) / np.maximum(larger[..., 2:3], 1e-9)
-    return np.asarray((apart <= _ALIKE).all(axis=2))
-
-
-def shapes_between(lower: FloatArray, upper: FloatArray, area: FloatArray) -> FloatArray:
-    """(N, 4) of boxes the shorter level side, the height, and the longest side; and the area.
-
-    Args:
-        lower: (N, 3) corners of the boxes.
-        upper: (N, 3).
-        area: (N,) of what is in them.
-    """
-    x, y, z = (upper - lower).T
-    return np.column_stack([np.minimum(x, y), z, np.maximum(np.maximum(x, y), z), area])
 
 
 def nearest_carriers(
@@ -95,10 +68,3 @@ def _gap(one: FloatArray, other: FloatArray) -> float:
     from scipy.spatial import cKDTree
 
     return float(np.min(cKDTree(one).query(other)[0]))
-
-
-def _shape(cloud: Cloud, pieces: IntArray) -> FloatArray:
-    """(1, 4) of what these pieces fill."""
-    inside = np.isin(cloud.piece, pieces)
-    points, area = cloud.points[inside], float(cloud.area[inside].sum())
-    return shapes_between(points.min(axis=0)[None], points.max(axis=0)[None], np.array([area]))
