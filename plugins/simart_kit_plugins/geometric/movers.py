@@ -11,7 +11,7 @@ from .fronts import OPEN, Front, find_fronts, thin
 from .sashes import passing, slides_over
 from .scene import FACINGS, Scene
 from .siblings import rows, twins
-from .skin_fronts import boards, leaves, on_tracks, parted_side
+from .skin_fronts import boards, gripped, leaves, on_tracks, parted_side
 
 ENCLOSED = 0.85  # share of rays behind a panel that must meet something for a cavity
 SHALLOWEST = 0.05  # a cavity is at least this deep
@@ -81,7 +81,7 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
         able = boards(scene, fronts)
         sliding = on_tracks(scene, able)
         tracks = {front.piece for front in sliding}
-        bare = [*leaves(scene, able), *sliding, *parted_side(scene, fronts)]
+        bare = [*leaves(scene, able), *sliding, *parted_side(scene, fronts), *gripped(scene, every)]
         scored += [(_BARE, front) for front in bare if front.piece not in told]
     scored = _without_skins(_layered(scored))
     known = {piece for _, front in scored for piece in front.pieces}

@@ -24,6 +24,7 @@ from .rotors import rotors
 from .rounds import collared, knobs, over_holes, wheels
 from .scene import Scene, make_scene
 from .seats import seats
+from .skin_windows import window_leaves
 from .spray_arms import spray_arms
 
 if TYPE_CHECKING:
@@ -82,6 +83,8 @@ def _find(scene: Scene, segments: Segments, spec: Spec | None) -> list[Mover]:
         return []
     contacts = Contacts(scene)
     fronts = with_levers(scene, contacts, front_movers(scene, contacts, segments.patches))
+    if segments.patches:
+        fronts = _with_windows(scene, fronts)
     found = _apart(most(hand_controls, held(scene), contacts, set()), fronts)
     taken = {piece for mover in found for piece in mover.pieces}
     sides = faced(scene, fronts)
@@ -96,6 +99,13 @@ def _find(scene: Scene, segments: Segments, spec: Spec | None) -> list[Mover]:
 
         found = chosen_movers(spec, scene, found, lambda: doubtful_movers(scene, contacts, taken))
     return sorted(_on_a_body(scene, found), key=lambda mover: -mover.score)
+
+
+def _with_windows(scene: Scene, fronts: list[Mover]) -> list[Mover]:
+    """Leaves of windows, and the fronts that are none of their pieces."""
+    windows = window_leaves(scene, {piece for front in fronts for piece in front.pieces})
+    known = {piece for leaf in windows for piece in leaf.pieces}
+    return windows + [front for front in fronts if not known.intersection(front.pieces)]
 
 
 def _on_a_body(scene: Scene, found: list[Mover]) -> list[Mover]:

@@ -109,10 +109,12 @@ def with_room(scene: Scene, view: View) -> Choice | None:
 
 def _towards_the_middle(view: View) -> Choice:
     """Along the front to where the body goes on: something in the model is in the way of everything."""
-    off = view.body.center - view.box.center
-    sign = 1.0 if off[0] >= 0 else -1.0
-    travel = min(2 * abs(float(off[0])), float(view.box.size[0]))
-    candidate = Candidate("prismatic", np.array([sign, 0.0, 0.0]), view.box.center, max(travel, 0.05))
+    off = (view.body.center - view.box.center)[:2]
+    along = int(np.argmax(np.abs(off) / view.box.size[:2]))
+    direction = np.zeros(3)
+    direction[along] = 1.0 if off[along] >= 0 else -1.0
+    travel = min(2 * abs(float(off[along])), float(view.box.size[along]))
+    candidate = Candidate("prismatic", direction, view.box.center, max(travel, 0.05))
     return candidate, 0.4, ("slides to where the body goes on",)
 
 

@@ -30,6 +30,8 @@ _TALL, _LEAF = 0.75, 0.3  # shares of the height and of its side that a leaf tak
 _TWO_SIDED = 0.3  # share of a leaf's surface that each of its faces has
 # Share of its panel that a handle covers at most, and of either side: a moulding is as long as what it is on.
 _KNOB, _BAR = 0.12, 0.6
+_ALIKE = 0.15  # shares of their width and height by which panels in a row may differ, and be out of line
+_CORNER = 0.75  # share of the way from the middle to both edges beyond which it is none
 _OUT = 0.008  # diagonals that it stands out
 _BESIDE_AT = 0.75  # widths between the middles of two leaves that pass by each other, at least
 _TRACK = (0.008, 0.08)  # diagonals between their tracks
@@ -49,6 +51,33 @@ def parted_side(scene: Scene, fronts: Mapping[str, Sequence[Front]]) -> list[Fro
 def leaves(scene: Scene, upright: Sequence[Front]) -> list[Front]:
     """Boards that bear a handle."""
     return [front for front in upright if has_handle(scene, front)]
+
+
+def gripped(scene: Scene, upright: Sequence[Front]) -> list[Front]:
+    """Panels before a body, several alike in line, each of one piece with what stands out of it."""
+    able = [
+        front
+        for front in upright
+        if front.facing != "top" and not front.handles and front.flat > _FLAT and _may_close(front)
+        if thin(front.box) and not _is_strip(scene, front) and _has_grip(scene, front)
+    ]
+    return [front for front in able if any(_beside(front, other) for other in able)]
+
+
+def _beside(one: Front, other: Front) -> bool:
+    """Whether two fronts of one side have about the same size, and are level or upright with each other."""
+    if one is other or one.facing != other.facing:
+        return False
+    size, apart = one.box.size[:2], np.abs(one.box.center - other.box.center)[:2]
+    alike = (np.abs(size - other.box.size[:2]) < _ALIKE * size).all()
+    return bool(alike and (apart < _ALIKE * size).any())
+
+
+def _has_grip(scene: Scene, front: Front) -> bool:
+    """Whether a panel bears a handle that is not at its corner, where skins are ragged."""
+    view = view_part(scene, front.piece)
+    central = min(np.abs(view.handle_place)) < _CORNER
+    return bool(central and front.facing == view.facing and _bears_knob(view))
 
 
 def on_tracks(scene: Scene, upright: Sequence[Front]) -> list[Front]:
