@@ -146,7 +146,7 @@ class TestPartedSides:
     def test_knobs_on_both_sides_of_the_middle_are_those_of_two_doors(self) -> None:
         assert self.labels([((x, -3, 20), (x + 3, 0, 24)) for x in (19, 30)]) == ["body", "door", "door"]
 
-    def test_so_are_bars_nearly_as_long_as_the_doors(self) -> None:
+    def test_bars_nearly_as_long_as_the_doors_are_handles(self) -> None:
         bars: list[Box] = [((x, -4, 5), (x + 3, -2, 39)) for x in (19, 30)]
         posts: list[Box] = [((x, -2, z), (x + 3, 0, z + 3)) for x in (19, 30) for z in (8, 33)]
         assert self.labels([*bars, *posts]) == ["body", "door", "door"]

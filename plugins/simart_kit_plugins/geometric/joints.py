@@ -41,6 +41,7 @@ from .rounds import round_axis
 from .sashes import SASHES, sliding
 from .scene import Box, Scene, make_scene
 from .seats import turned_up
+from .skin_wheels import rough_disc
 from .spray_arms import SPRAY_ARMS, whirling
 from .supports import unheld
 from .views import View, view_part
@@ -132,7 +133,10 @@ def _spinning(scene: Scene, view: View) -> Choice | None:
     points = scene.points_of(view.part)
     axis = round_axis(points)
     if axis is None:
-        return None
+        disc = rough_disc(points)
+        if disc is None:
+            return None
+        axis = disc.axis
     middle = view.axes @ ((points.max(axis=0) + points.min(axis=0)) / 2)
     return spin(view.axes[:, axis], middle), 0.7, ("round about this axis",)
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from .contact import Contacts
 from .drawer_fronts import STRIP, held_aside, like_drawer, stacked
 from .fronts import OPEN, Front, find_fronts, thin
@@ -32,6 +34,7 @@ _BETWEEN = 0.9  # share of the width of its side that such a drawer takes: the a
 _ROW = 3  # so many alike are a row
 _CONTROLS = 4  # so many things on a strip are controls
 _ACROSS = 0.85  # share of the width of its side that a strip takes which bears controls
+_EDGE = 0.15  # share of a whole side by which what opens it is off its middle, on a skin
 _TWIN = 0.5  # how sure a front is of which only its twin opens by itself
 _BARE = 0.6  # how sure a front is that only the parting of a skin tells
 _DOUBTFUL = 0.3  # how sure a front is that takes its whole side, and for which nothing else speaks
@@ -60,8 +63,8 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     """Doors, drawers and lids. A front with a handle counts on any side; one without, on the main side only.
 
     On a fused skin every patch closes the cavity within. There those with handles count, unless they take a
-    whole side of the body, boards with a handle and their twins, boards in two tracks, and the panels of a
-    parted side.
+    whole side of the body and have them in the middle, boards with a handle and their twins, boards in two
+    tracks, the panels of a parted side, and several alike of one piece with their handles.
     """
     fronts = {facing: find_fronts(scene, contacts, facing, fused) for facing in FACINGS}
     in_rows = {facing: [] if fused else _rows(scene, fronts[facing]) for facing in FACINGS}
@@ -179,7 +182,7 @@ def _main_side(fronts: dict[str, list[Front]], in_rows: Mapping[str, Sequence[Fr
 
 def _score(front: Front, main: bool, fused: bool) -> float:
     """0 for a front that stays, else how sure it moves."""
-    if fused and front.framed < FRAMED and front.share > WHOLE:
+    if fused and front.framed < FRAMED and front.share > WHOLE and not (main and _held_at_edge(front)):
         return 0.0
     if front.share > _ALL and front.box.size[2] < _SHEET and not front.loose:
         return 0.0  # a side of a housing, to which the others are joined
@@ -188,6 +191,11 @@ def _score(front: Front, main: bool, fused: bool) -> float:
     if _opens_by_handle(front):
         return 0.9 if main else 0.6
     return 0.6 if main and not fused and _opens_by_place(front) else 0.0
+
+
+def _held_at_edge(front: Front) -> bool:
+    """Whether what one takes hold of is off the middle, as of a fridge's door; a case is carried by it."""
+    return front.facing != "top" and front.held is not None and np.abs(front.held).max() > _EDGE
 
 
 def _is_fascia(front: Front) -> bool:

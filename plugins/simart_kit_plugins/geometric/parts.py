@@ -24,6 +24,7 @@ from .rotors import rotors
 from .rounds import collared, knobs, over_holes, wheels
 from .scene import Scene, make_scene
 from .seats import seats
+from .skin_wheels import skin_wheels
 from .skin_windows import window_leaves
 from .spray_arms import spray_arms
 
@@ -88,7 +89,8 @@ def _find(scene: Scene, segments: Segments, spec: Spec | None) -> list[Mover]:
     found = _apart(most(hand_controls, held(scene), contacts, set()), fronts)
     taken = {piece for mover in found for piece in mover.pieces}
     sides = faced(scene, fronts)
-    for finder, scenes in [*((one, [scene]) for one in _FINDERS), *((one, sides) for one in _FACED)]:
+    finders = (skin_wheels, *_FINDERS) if segments.patches else _FINDERS
+    for finder, scenes in [*((one, [scene]) for one in finders), *((one, sides) for one in _FACED)]:
         for mover in most(finder, scenes, contacts, taken):
             if not taken.intersection(mover.pieces):
                 found.append(mover)

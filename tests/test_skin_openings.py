@@ -1,4 +1,4 @@
-"""Leaves of windows on skins that are cut into pieces, told by their panes, frames, tracks and handles."""
+"""Skins that are cut into pieces: leaves of windows by panes, frames and tracks, and fronts by handles."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import trimesh
 from scipy.spatial.transform import Rotation
 from simart_kit_plugins.geometric.contact import Contacts
 from simart_kit_plugins.geometric.fronts import find_fronts
-from simart_kit_plugins.geometric.movers import Mover
+from simart_kit_plugins.geometric.movers import Mover, front_movers
 from simart_kit_plugins.geometric.predictor import GeometricJoints
 from simart_kit_plugins.geometric.scene import Scene, make_scene
 from simart_kit_plugins.geometric.segmenter import Geometric
@@ -173,6 +173,18 @@ def test_panels_alike_of_one_piece_with_their_handles_are_fronts(
     scene = desk(handles).scene()
     fronts = find_fronts(scene, Contacts(scene), "front", fused=True)
     assert {front.piece for front in gripped(scene, fronts)} == pieces
+
+
+@pytest.mark.parametrize(("x", "pieces"), [(0.7, [(0, 3)]), (0.41, [])], ids=["at its edge", "in the middle"])
+def test_a_whole_side_is_a_door_where_its_handle_is_at_the_edge(
+    x: float, pieces: list[tuple[int, ...]]
+) -> None:
+    skin = Skin()
+    skin.add(((0.01, 0, 0.01), (0.79, 0.6, 0.99)), -1, 1, 2)
+    skin.add(((0, -0.03, 0), (0.8, 0, 1.0)), 0, -1, 0)
+    skin.add(((x - 0.02, -0.08, 0.4), (x + 0.02, -0.03, 0.6)), 3, 3, 3)
+    scene = skin.scene()
+    assert [mover.pieces for mover in front_movers(scene, Contacts(scene), fused=True)] == pieces
 
 
 @needs_data
