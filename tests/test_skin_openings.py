@@ -11,10 +11,11 @@ from scipy.spatial.transform import Rotation
 from simart_kit_plugins.geometric.contact import Contacts
 from simart_kit_plugins.geometric.fronts import find_fronts
 from simart_kit_plugins.geometric.movers import Mover, front_movers
+from simart_kit_plugins.geometric.open_leaves import standing_open
 from simart_kit_plugins.geometric.predictor import GeometricJoints
 from simart_kit_plugins.geometric.scene import Scene, make_scene
 from simart_kit_plugins.geometric.segmenter import Geometric
-from simart_kit_plugins.geometric.skin_fronts import gripped
+from simart_kit_plugins.geometric.skin_fronts import gripped, portholes
 from simart_kit_plugins.geometric.skin_windows import window_leaves
 
 from simart_kit.arrays import FloatArray
@@ -185,6 +186,41 @@ def test_a_whole_side_is_a_door_where_its_handle_is_at_the_edge(
     skin.add(((x - 0.02, -0.08, 0.4), (x + 0.02, -0.03, 0.6)), 3, 3, 3)
     scene = skin.scene()
     assert [mover.pieces for mover in front_movers(scene, Contacts(scene), fused=True)] == pieces
+
+
+def test_a_lid_that_lies_flush_with_the_floor_of_what_it_closes_hangs_where_its_inner_face_ends() -> None:
+    skin = Skin()
+    for low, high in (((0, 0, 0), (0.8, 0.4, 0.01)), ((0, 0, 0.49), (0.8, 0.4, 0.5))):
+        skin.add((low, high), 0, 0, 0)
+    for x in (0, 0.79):
+        skin.add(((x, 0, 0.01), (x + 0.01, 0.4, 0.49)), 0, 0, 0)
+    skin.add(((0, 0.39, 0.01), (0.8, 0.4, 0.49)), 0, 0, 0)
+    skin.add(((0, -0.5, 0), (0.8, 0, 0.02)), 1, -1, 1)
+    on_the_ground = [bool((triangle[:, 2] < 1e-9).all()) for triangle in skin.triangles]
+    skin.pieces = [1 if below else piece for below, piece in zip(on_the_ground, skin.pieces, strict=True)]
+    scene = skin.scene()
+    leaf = standing_open(scene, scene.faces_of((1,)), np.array([1]))
+    assert leaf is not None
+    assert leaf.angle == pytest.approx(np.pi / 2)
+    assert leaf.sizes * scene.size == pytest.approx([0.8, 0.5], abs=0.02)
+    assert scene.points_to_asset(leaf.hinge[None])[0][1] == pytest.approx(0.0, abs=0.02)
+
+
+@pytest.mark.parametrize(("deep", "found"), [(0.6, {1}), (0.2, set())], ids=["a washing machine", "a clock"])
+def test_a_round_rim_with_a_round_pane_on_the_front_of_something_deep_is_a_door(
+    deep: float, found: set[int]
+) -> None:
+    skin = Skin()
+    skin.add(((0, 0, 0), (0.6, deep, 0.9)), 0, 3, 4)
+    for piece, radius, out in ((1, 0.2, 0.04), (2, 0.13, 0.05)):
+        disc = trimesh.creation.cylinder(radius, out, sections=48)
+        disc.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, (1, 0, 0)))
+        disc.apply_translation((0.3, -out / 2, 0.45))
+        skin.triangles += list(disc.triangles)
+        skin.pieces += [piece] * len(disc.triangles)
+    scene = skin.scene()
+    fronts = find_fronts(scene, Contacts(scene), "front", fused=True)
+    assert {front.piece for front in portholes(scene, fronts)} == found
 
 
 @needs_data

@@ -7,8 +7,9 @@ import pytest
 import trimesh
 from simart_kit_plugins.geometric.contact import Contacts
 from simart_kit_plugins.geometric.predictor import GeometricJoints
+from simart_kit_plugins.geometric.rough_discs import rough_disc
 from simart_kit_plugins.geometric.scene import Scene, make_scene
-from simart_kit_plugins.geometric.skin_wheels import rough_disc, skin_wheels
+from simart_kit_plugins.geometric.skin_wheels import skin_wheels
 
 from simart_kit import PartGuess, Segmentation
 from simart_kit.arrays import FloatArray, IntArray, frozen_ints

@@ -37,11 +37,11 @@ from .open_leaves import opened
 from .pivots import is_post, on_post, pivot
 from .racks import sliding_out
 from .rotors import ROTORS, about_symmetry
+from .rough_discs import rough_disc
 from .rounds import round_axis
 from .sashes import SASHES, sliding
 from .scene import Box, Scene, make_scene
 from .seats import turned_up
-from .skin_wheels import rough_disc
 from .spray_arms import SPRAY_ARMS, whirling
 from .supports import unheld
 from .views import View, view_part

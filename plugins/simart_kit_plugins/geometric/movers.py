@@ -13,7 +13,7 @@ from .fronts import OPEN, Front, find_fronts, thin
 from .sashes import passing, slides_over
 from .scene import FACINGS, Scene
 from .siblings import rows, twins
-from .skin_fronts import boards, gripped, leaves, on_tracks, parted_side
+from .skin_fronts import boards, gripped, leaves, on_tracks, parted_side, portholes
 
 ENCLOSED = 0.85  # share of rays behind a panel that must meet something for a cavity
 SHALLOWEST = 0.05  # a cavity is at least this deep
@@ -37,6 +37,7 @@ _ACROSS = 0.85  # share of the width of its side that a strip takes which bears 
 _EDGE = 0.15  # share of a whole side by which what opens it is off its middle, on a skin
 _TWIN = 0.5  # how sure a front is of which only its twin opens by itself
 _BARE = 0.6  # how sure a front is that only the parting of a skin tells
+_PORTHOLE = 0.7  # how sure a round front is, rather than the panel around it
 _DOUBTFUL = 0.3  # how sure a front is that takes its whole side, and for which nothing else speaks
 
 
@@ -86,6 +87,7 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
         tracks = {front.piece for front in sliding}
         bare = [*leaves(scene, able), *sliding, *parted_side(scene, fronts), *gripped(scene, every)]
         scored += [(_BARE, front) for front in bare if front.piece not in told]
+        scored += [(_PORTHOLE, front) for front in portholes(scene, every) if front.piece not in told]
     scored = _without_skins(_layered(scored))
     known = {piece for _, front in scored for piece in front.pieces}
     scored += [(_TWIN, front) for front in in_rows[main] if front.piece not in known]

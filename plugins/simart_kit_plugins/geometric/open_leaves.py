@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray, IntArray, unit
+from simart_kit.arrays import BoolArray, FloatArray, IntArray, unit
 from simart_kit.kinematics import rotation, turned_about
 from simart_kit.sweeping import Sweep
 
@@ -27,8 +27,10 @@ _OUTLIERS = 0.005  # share of the surface at either end that an extent leaves ou
 _ALONG = 0.05  # cosine up to which a plane runs along an axis: 3 degrees
 _LEAST_OPEN, _MOST_OPEN = np.deg2rad(30.0), np.deg2rad(150.0)  # panels of a row lie at 180 degrees
 _SAME = 0.15  # share of its extent by which a panel may differ from what it closes: a wall, or a gap
+_TWO_FACED = 0.25  # share of its surface that each face of a board has
+_FLUSH = 0.1  # share of its extent by which one goes on farther that is flush with a wall
 _PLATE = 0.08  # the same of two plates of one size
-_OPEN = 0.85  # share of rays that pass through an opening
+_OPEN = 0.8  # share of rays that pass through an opening
 _FREE = 0.03  # so near its far half nothing stands: else it is a wall
 _ALMOST_CLOSED = 0.9  # of the way to closed: what is nearer touches what it closes, as seals do
 _CUTS = 2.0  # a leaf that cuts so many times as much into what it closes from its middle hangs at its face
@@ -133,22 +135,29 @@ def _possible(scene: Scene, panel: IntArray) -> Iterator[Leaf]:
         return
     points = scene.triangles[panel[flat]].reshape(-1, 3)
     weights = np.repeat(areas[flat], 3)
+    side = np.repeat(normals[flat] @ normal > 0, 3)
     thickness = _extent(points @ normal, weights)
     for axis in np.eye(3)[np.abs(normal) < _ALONG]:
-        along, across = _extent(points @ axis, weights), np.cross(axis, normal)
-        length = _extent(points @ across, weights)
-        sizes = np.array([np.ptp(along), np.ptp(length)])
-        if sizes.min() < _SMALLEST or np.ptp(thickness) > _THIN * sizes.min():
+        across = np.cross(axis, normal)
+        for along, length in _outlines(points @ np.column_stack([axis, across]), weights, side):
+            sizes = np.array([np.ptp(along), np.ptp(length)])
+            if sizes.min() < _SMALLEST or np.ptp(thickness) > _THIN * sizes.min():
+                continue
+            middle = along.mean() * axis + thickness.mean() * normal
+            for end, far in ((length[0], across), (length[1], -across)):
+                yield from _hung(axis, middle + end * across, far, sizes, float(np.ptp(thickness)))
+
+
+def _hung(
+    axis: FloatArray, hinge: FloatArray, far: FloatArray, sizes: FloatArray, thick: float
+) -> Iterator[Leaf]:
+    """A panel that hangs on an edge, with each plane in which it could be closed."""
+    for closed in np.concatenate([np.eye(3), -np.eye(3)]):
+        angle = float(np.arccos(np.clip(far @ closed, -1, 1)))
+        if abs(closed @ axis) > 0.5 or not _LEAST_OPEN <= angle <= _MOST_OPEN:
             continue
-        for end, far in ((length[0], across), (length[1], -across)):
-            hinge = along.mean() * axis + end * across + thickness.mean() * normal
-            for closed in np.concatenate([np.eye(3), -np.eye(3)]):
-                angle = float(np.arccos(np.clip(far @ closed, -1, 1)))
-                if abs(closed @ axis) > 0.5 or not _LEAST_OPEN <= angle <= _MOST_OPEN:
-                    continue
-                outward = unit(far - (far @ closed) * closed)
-                turn = np.cross(closed, outward)
-                yield Leaf(turn, hinge, far, closed, outward, sizes, float(np.ptp(thickness)), angle)
+        outward = unit(far - (far @ closed) * closed)
+        yield Leaf(np.cross(closed, outward), hinge, far, closed, outward, sizes, thick, angle)
 
 
 def _closes_plate(scene: Scene, leaf: Leaf, own: IntArray) -> bool:
@@ -243,6 +252,25 @@ def _mates(scene: Scene, contacts: Contacts, piece: int, taken: Set[int]) -> lis
     ]
     on = hanging_on({piece}, near, lambda i, j: contacts.within(i, j, TOUCH))
     return [i for i in near if i in on]
+
+
+def _outlines(places: FloatArray, weights: FloatArray, side: BoolArray) -> Iterator[tuple[FloatArray, ...]]:
+    """Extents of a panel along two directions, (2,) each; and of what both its faces cover, if that is less.
+
+    A face that goes on farther than the other is flush with a wall, and of it as well.
+
+    Args:
+        places: (N, 2) of points along the directions.
+        weights: (N,) of them.
+        side: (N,) which face each is on.
+    """
+    whole = tuple(_extent(column, weights) for column in places.T)
+    yield whole
+    if _TWO_FACED < weights[side].sum() / weights.sum() < 1 - _TWO_FACED:
+        ends = np.array([[_extent(column[on], weights[on]) for column in places.T] for on in (side, ~side)])
+        both = np.column_stack([ends[..., 0].max(axis=0), ends[..., 1].min(axis=0)])
+        if (np.ptp(whole, axis=1) - np.ptp(both, axis=1) > _FLUSH * np.ptp(whole, axis=1)).any():
+            yield tuple(both)
 
 
 def _extent(values: FloatArray, weights: FloatArray) -> FloatArray:

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from .fronts import OPEN, Front, thin
+from .rough_discs import rough_disc
 from .scene import FACINGS, Scene
 from .siblings import alike
 from .views import View, view_part
@@ -30,6 +31,7 @@ _TALL, _LEAF = 0.75, 0.3  # shares of the height and of its side that a leaf tak
 _TWO_SIDED = 0.3  # share of a leaf's surface that each of its faces has
 # Share of its panel that a handle covers at most, and of either side: a moulding is as long as what it is on.
 _KNOB, _BAR = 0.12, 0.6
+_ROUND_LEAST, _ROUND_MOST = 0.1, 0.6  # shares of its side that a round door takes
 _ALIKE = 0.15  # shares of their width and height by which panels in a row may differ, and be out of line
 _CORNER = 0.75  # share of the way from the middle to both edges beyond which it is none
 _OUT = 0.008  # diagonals that it stands out
@@ -71,6 +73,25 @@ def _beside(one: Front, other: Front) -> bool:
     size, apart = one.box.size[:2], np.abs(one.box.center - other.box.center)[:2]
     alike = (np.abs(size - other.box.size[:2]) < _ALIKE * size).all()
     return bool(alike and (apart < _ALIKE * size).any())
+
+
+def portholes(scene: Scene, upright: Sequence[Front]) -> list[Front]:
+    """Round rims around something round, on a larger panel before a deep body, as of a washing machine."""
+    closed = [front for front in upright if front.facing != "top" and _closes(front)]
+    return [
+        front
+        for front in closed
+        if _ROUND_LEAST < front.share < _ROUND_MOST
+        and front.depth > front.box.size[:2].max()
+        and any(front.piece in other.inlays for other in closed if other.facing == front.facing)
+        and any(_is_round(scene, front.facing, inner) for inner in front.inlays)
+        and _is_round(scene, front.facing, front.piece)
+    ]
+
+
+def _is_round(scene: Scene, facing: str, piece: int) -> bool:
+    disc = rough_disc(scene.points_of(piece))
+    return disc is not None and abs(FACINGS[facing][2][disc.axis]) > 0.5
 
 
 def _has_grip(scene: Scene, front: Front) -> bool:
@@ -163,8 +184,11 @@ def _plane(scene: Scene, front: Front) -> float:
 
 
 def _may_close(front: Front) -> bool:
-    closed = min(front.walled, front.backed) > 0.85 and front.depth > _DEEP
-    return closed and _LEAST < front.share < _MOST
+    return _closes(front) and _LEAST < front.share < _MOST
+
+
+def _closes(front: Front) -> bool:
+    return min(front.walled, front.backed) > 0.85 and front.depth > _DEEP
 
 
 def _is_strip(scene: Scene, front: Front) -> bool:

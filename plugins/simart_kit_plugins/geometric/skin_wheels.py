@@ -3,60 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence, Set
-from dataclasses import dataclass
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray
-
 from .contact import Contacts
 from .movers import Mover
+from .rough_discs import Disc, rough_disc
 from .scene import Scene
 
 _LEAST, _MOST = 0.03, 0.6  # diagonals across a wheel
 _GROUND = 0.03  # diagonals above the ground up to which it stands there
-_ROUND = 0.12  # by which its width and height may differ, and its rim be off, as a share of its radius
-_RIM, _BINS = 0.75, 24  # share of the ways from its middle in which the rim is found
-_WIDE = 0.8  # diameters along the axle
 _SAME = 0.15  # share of their diameter by which wheels may differ
 _ASIDE = 0.3  # of its diameter that what is within the rim of a wheel may be beside it along the axle
 _WITHIN = 1.05  # radii within which all of that lies
-
-
-@dataclass(frozen=True, eq=False)
-class Disc:
-    """Something about as high as long, with a rim nearly all around.
-
-    Attributes:
-        axis: 0, 1 or 2, of the aligned frame.
-        center: (3,) its middle.
-        radius: of the rim [diagonals].
-        ends: (2,) where it begins and ends along the axis.
-    """
-
-    axis: int
-    center: FloatArray
-    radius: float
-    ends: FloatArray
-
-
-def rough_disc(points: FloatArray) -> Disc | None:
-    """The disc that (N, 3) points are of, roughly; None where they are of none."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    size, center = high - low, (low + high) / 2
-    for axis in np.argsort(size).tolist():
-        across = [other for other in range(3) if other != axis]
-        wide = size[across]
-        if wide.max() - wide.min() > _ROUND * wide.max() or size[axis] > _WIDE * wide.max():
-            continue
-        radius = float(wide.mean()) / 2
-        offset = points[:, across] - center[across]
-        way = ((np.arctan2(offset[:, 1], offset[:, 0]) / (2 * np.pi) + 0.5) * _BINS).astype(np.int64) % _BINS
-        reach = np.zeros(_BINS)
-        np.maximum.at(reach, way, np.hypot(*offset.T))
-        if (np.abs(reach - radius) < _ROUND * radius).mean() >= _RIM:
-            return Disc(int(axis), center, radius, np.array([low[axis], high[axis]]))
-    return None
 
 
 def skin_wheels(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
