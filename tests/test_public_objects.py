@@ -32,6 +32,7 @@ from .public_objects.fetching import unpack
 from .public_objects.making import make_objects
 from .public_objects.mjcf import read_mjcf
 from .public_objects.rigged import Rigged
+from .public_objects.skinned import add_skin
 from .public_objects.sources import Entry, Source, known_sources
 from .public_objects.sweet_home import read_sweet_home
 from .public_objects.urdf import read_urdf
@@ -279,6 +280,21 @@ def test_a_package_becomes_objects_that_say_where_they_are_from(carts: Source, t
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["verify"]  # the package is gone
     with pytest.raises(BadInputError, match=r"cart exists: remove it"):
         make_objects({"carts": carts}, tmp_path / "out", told.append)
+
+
+def test_the_skin_of_an_object_is_closed_and_has_its_parts(carts: Source, tmp_path: Path) -> None:
+    (folder,) = make_objects({"carts": carts}, tmp_path / "out", lambda text: None)
+    add_skin(folder)
+    skin = trimesh.load(folder / "fused.glb", process=False, force="mesh")
+    assert isinstance(skin, trimesh.Trimesh)
+    assert skin.is_watertight
+    whole = trimesh.load(folder / "input.glb", process=False, force="mesh")
+    assert isinstance(whole, trimesh.Trimesh)
+    voxel = float(np.ptp(whole.bounds, axis=0).max()) / 112
+    assert skin.bounds == pytest.approx(whole.bounds, abs=2 * voxel)
+    part = np.load(folder / "fused.npz")["face_part"]
+    assert len(part) == len(skin.faces)
+    assert set(part.tolist()) == set(np.load(folder / "gt.npz")["face_part"].tolist())
 
 
 @pytest.mark.parametrize(

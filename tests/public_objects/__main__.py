@@ -12,6 +12,7 @@ from typing import TextIO
 from simart_kit.errors import SimartKitError
 
 from .making import make_objects
+from .skinned import add_skin
 from .sources import Source, known_sources
 
 
@@ -28,6 +29,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except SimartKitError as error:
         _tell(f"error: {error}", sys.stderr)
         return error.exit_code
+    for folder in made if options.skins else ():
+        add_skin(folder)
     sets = Counter(folder.parent.name for folder in made)
     _tell(f"{len(made)} objects in {options.out}: {_counts(sets)}; for evaluation only", sys.stdout)
     return 0
@@ -45,6 +48,7 @@ def _options(known: list[str], arguments: Sequence[str] | None) -> argparse.Name
     )
     target.add_argument("--list", action="store_true", help="say what there is, and download nothing")
     parser.add_argument("--source", nargs="+", choices=known, metavar="NAME", help="only these packages")
+    parser.add_argument("--skins", action="store_true", help="write a closed skin of each, too: fused.glb")
     return parser.parse_args(arguments)
 
 
