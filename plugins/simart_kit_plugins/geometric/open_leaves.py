@@ -15,6 +15,7 @@ from simart_kit.sweeping import Sweep
 from .candidates import AS_FREE, Candidate, Choice
 from .casting import first_met
 from .contact import TOUCH, Contacts, hanging_on
+from .extents import extent_without
 from .movers import SHALLOWEST, Mover
 from .scene import Scene
 from .views import View
@@ -136,7 +137,7 @@ def _possible(scene: Scene, panel: IntArray) -> Iterator[Leaf]:
     points = scene.triangles[panel[flat]].reshape(-1, 3)
     weights = np.repeat(areas[flat], 3)
     side = np.repeat(normals[flat] @ normal > 0, 3)
-    thickness = _extent(points @ normal, weights)
+    thickness = extent_without(_OUTLIERS, points @ normal, weights)
     for axis in np.eye(3)[np.abs(normal) < _ALONG]:
         across = np.cross(axis, normal)
         for along, length in _outlines(points @ np.column_stack([axis, across]), weights, side):
@@ -264,18 +265,15 @@ def _outlines(places: FloatArray, weights: FloatArray, side: BoolArray) -> Itera
         weights: (N,) of them.
         side: (N,) which face each is on.
     """
-    whole = tuple(_extent(column, weights) for column in places.T)
-    yield whole
+    whole = _box(places, weights)
+    yield tuple(whole)
     if _TWO_FACED < weights[side].sum() / weights.sum() < 1 - _TWO_FACED:
-        ends = np.array([[_extent(column[on], weights[on]) for column in places.T] for on in (side, ~side)])
+        ends = np.stack([_box(places[on], weights[on]) for on in (side, ~side)])
         both = np.column_stack([ends[..., 0].max(axis=0), ends[..., 1].min(axis=0)])
         if (np.ptp(whole, axis=1) - np.ptp(both, axis=1) > _FLUSH * np.ptp(whole, axis=1)).any():
             yield tuple(both)
 
 
-def _extent(values: FloatArray, weights: FloatArray) -> FloatArray:
-    """(2,) where values begin and end, but for a small share of their weight."""
-    order = np.argsort(values)
-    share = np.cumsum(weights[order]) / weights.sum()
-    first, last = np.searchsorted(share, [_OUTLIERS, 1 - _OUTLIERS])
-    return values[order[[first, min(last, len(order) - 1)]]]
+def _box(places: FloatArray, weights: FloatArray) -> FloatArray:
+    """(2, 2) lower and upper end of (N, 2) points along each direction."""
+    return np.array([extent_without(_OUTLIERS, column, weights) for column in places.T])

@@ -13,6 +13,7 @@ import numpy as np
 
 from simart_kit.arrays import FloatArray
 
+from .extents import extent_without
 from .movers import Mover
 from .scene import FACINGS, Scene
 
@@ -150,7 +151,7 @@ def _seen(scene: Scene, axes: FloatArray) -> list[_Piece]:
 
 def _piece(piece: int, middles: FloatArray, normals: FloatArray, shares: FloatArray) -> _Piece:
     """A piece by its faces: their middles, normals and shares of the whole surface, as seen from the side."""
-    low, high = np.transpose([_ends(column, shares) for column in middles.T])
+    low, high = np.transpose([extent_without(_ENDS, column, shares) for column in middles.T])
     looks = [normals[:, 2] > _ALONG, normals[:, 2] < -_ALONG]
     faces = np.array([shares[look].sum() for look in looks])
     levels = [
@@ -216,10 +217,3 @@ def _all_of(seen: Sequence[_Piece], leaf: _Leaf) -> tuple[int, ...]:
         and one.upper[2] < high
     ]
     return (*known, *small)
-
-
-def _ends(values: FloatArray, weights: FloatArray) -> tuple[float, float]:
-    order = np.argsort(values)
-    share = np.cumsum(weights[order]) / weights.sum()
-    first, last = np.searchsorted(share, [_ENDS, 1 - _ENDS])
-    return float(values[order[first]]), float(values[order[min(last, len(order) - 1)]])
