@@ -124,6 +124,16 @@ def test_panes_side_by_side_in_two_tracks_slide_and_of_two_above_one_another_the
     assert (lower.label, set(lower.pieces)) == ("sash", {1, 2, 3})
 
 
+def test_what_lies_in_two_leaves_goes_with_one() -> None:
+    skin = jambs()
+    pane(skin, (0.04, 0.42), (0.04, 0.96), 0.02, 1)
+    pane(skin, (0.38, 0.76), (0.04, 0.96), 0.06, 4)
+    skin.add(((0.395, 0.02, 0.45), (0.405, 0.05, 0.5)), 7, 7, 7)
+    one, other = (set(mover.pieces) for mover in skin.leaves())
+    assert one | other == {1, 2, 3, 4, 5, 6, 7}
+    assert not one & other
+
+
 def test_a_pane_that_stands_ajar_turns_and_so_does_its_like() -> None:
     skin = jambs()
     skin.add(((0.05, 0.0, 0.06), (0.39, 0.02, 0.94)), 1, 1, 1)

@@ -63,7 +63,7 @@ class _Piece:
 
     @property
     def center(self) -> FloatArray:
-        """(3,) middle; across, of the two faces."""
+        """(3,) middle of its extents; along w, of its two faces."""
         middle = (self.lower + self.upper) / 2
         return np.array([*middle[:2], self.levels.mean()])
 
@@ -75,7 +75,7 @@ class _Piece:
 
 @dataclass(frozen=True, eq=False)
 class _Leaf:
-    """A pane and its frame."""
+    """A pane and the frames before and behind it."""
 
     pane: _Piece
     frames: tuple[_Piece, ...]
@@ -116,12 +116,15 @@ def _moving(
         large = (leaf.pane.size[:2] > _ALONE * whole[:2]).all()
         if new and large and leaf.frames and _has_handle(scene, leaf, side):
             told[leaf.pane.piece] = (leaf, "door", "a pane in a frame with a handle")
+    used = set(told)
     for leaf, label, reason in told.values():
-        yield Mover(_all_of(seen, leaf), label, 0.7, (reason,), side)
+        pieces = (leaf.pane.piece, *(piece for piece in _all_of(seen, leaf) if piece not in used))
+        used.update(pieces)
+        yield Mover(pieces, label, 0.7, (reason,), side)
 
 
 def _pair(scene: Scene, lower: _Leaf, upper: _Leaf, side: str) -> tuple[str, str]:
-    """What two leaves are, and why; empty where that they are alike and side by side tells nothing."""
+    """What two leaves are, and why; nothing where they are not alike, or nothing tells that they move."""
     one, other = lower.pane, upper.pane
     along = _follows(one, other)
     if along is None:
