@@ -13,7 +13,7 @@ from .fronts import OPEN, Front, find_fronts, thin
 from .sashes import passing, slides_over
 from .scene import FACINGS, Scene
 from .siblings import rows, twins
-from .skin_fronts import boards, gripped, leaves, on_tracks, parted_side, portholes
+from .skin_fronts import boards, gripped, leaves, parted_side, portholes
 
 ENCLOSED = 0.85  # share of rays behind a panel that must meet something for a cavity
 SHALLOWEST = 0.05  # a cavity is at least this deep
@@ -64,8 +64,8 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     """Doors, drawers and lids. A front with a handle counts on any side; one without, on the main side only.
 
     On a fused skin every patch closes the cavity within. There those with handles count, unless they take a
-    whole side of the body and have them in the middle, boards with a handle and their twins, boards in two
-    tracks, the panels of a parted side, and several alike of one piece with their handles.
+    whole side of the body and have them in the middle, boards with a handle and their twins, the panels of a
+    parted side, and round ones, and several alike of one piece with their handles.
     """
     fronts = {facing: find_fronts(scene, contacts, facing, fused) for facing in FACINGS}
     in_rows = {facing: [] if fused else _rows(scene, fronts[facing]) for facing in FACINGS}
@@ -83,9 +83,7 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
     if fused:
         told = {front.piece for _, front in scored}
         able = boards(scene, fronts)
-        sliding = on_tracks(scene, able)
-        tracks = {front.piece for front in sliding}
-        bare = [*leaves(scene, able), *sliding, *parted_side(scene, fronts), *gripped(scene, every)]
+        bare = [*leaves(scene, able), *parted_side(scene, fronts), *gripped(scene, every)]
         scored += [(_BARE, front) for front in bare if front.piece not in told]
         scored += [(_PORTHOLE, front) for front in portholes(scene, every) if front.piece not in told]
     scored = _without_skins(_layered(scored))

@@ -9,10 +9,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from .fronts import OPEN, Front, thin
+from .fronts import Front, thin
 from .rough_discs import rough_disc
 from .scene import FACINGS, Scene
-from .siblings import alike
 from .views import View, view_part
 
 _OPPOSITE = {"front": "back", "back": "front", "left": "right", "right": "left"}
@@ -35,8 +34,6 @@ _ROUND_LEAST, _ROUND_MOST = 0.1, 0.6  # shares of its side that a round door tak
 _ALIKE = 0.15  # shares of their width and height by which panels in a row may differ, and be out of line
 _CORNER = 0.75  # share of the way from the middle to both edges beyond which it is none
 _OUT = 0.008  # diagonals that it stands out
-_BESIDE_AT = 0.75  # widths between the middles of two leaves that pass by each other, at least
-_TRACK = (0.008, 0.08)  # diagonals between their tracks
 
 
 def parted_side(scene: Scene, fronts: Mapping[str, Sequence[Front]]) -> list[Front]:
@@ -99,27 +96,6 @@ def _has_grip(scene: Scene, front: Front) -> bool:
     view = view_part(scene, front.piece)
     central = min(np.abs(view.handle_place)) < _CORNER
     return bool(central and front.facing == view.facing and _bears_knob(view))
-
-
-def on_tracks(scene: Scene, upright: Sequence[Front]) -> list[Front]:
-    """Boards alike, side by side in two tracks, before and behind which one may pass."""
-    free = [front for front in upright if front.backed < OPEN]
-    return [one for one in free if any(_passes(scene, one, other) for other in free)]
-
-
-def _passes(scene: Scene, one: Front, other: Front) -> bool:
-    if one.facing != other.facing or not alike(scene, one, other):
-        return False
-    apart = np.abs(one.box.center - other.box.center)[:2] / one.box.size[:2]
-    step = abs(_middle(scene, one) - _middle(scene, other))
-    return bool(_BESIDE_AT < apart[0] < 1 + _LEVEL and apart[1] < _LEVEL and _TRACK[0] < step < _TRACK[1])
-
-
-def _middle(scene: Scene, front: Front) -> float:
-    """Where its surface lies on the whole [w]."""
-    faces = scene.faces_of((front.piece,))
-    places = scene.triangles[faces].mean(axis=1) @ FACINGS[front.facing][2]
-    return float(np.average(places, weights=scene.face_areas[faces]))
 
 
 def boards(scene: Scene, fronts: Mapping[str, Sequence[Front]]) -> list[Front]:
