@@ -51,6 +51,11 @@ class TestHandHeld:
         np.testing.assert_allclose(result.joint("squeeze").axis, (-1, 0, 0), atol=0.02)
         np.testing.assert_allclose(result.joint("thumbstick").axis, (0, 1, 0), atol=0.02)
 
+    def test_a_trigger_tells_by_itself_that_a_thing_is_held_and_a_grip_at_its_side_does_not(self) -> None:
+        long = box((-0.01, 0.01), (0.035, 0.065), (-0.018, 0.01))
+        assert found(boxes_mesh([*BODY, long])).kinds == {"trigger": "revolute"}
+        assert not found(boxes_mesh([*BODY, GRIP])).joints
+
     def test_a_trigger_hangs_at_its_front_and_is_pulled_back(self) -> None:
         result = found(controller())
         joint = result.joint("trigger")

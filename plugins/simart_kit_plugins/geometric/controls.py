@@ -23,7 +23,8 @@ _MOST_STICKS = 2  # one a thumb: more studs alike are screws or feet
 _FIELD, _PITCH = 12, 1.35  # more caps alike than this, so close in widths, are a keyboard's keys: left
 _LEVEL = 40  # so are those among more caps than this that face the same way at one height, of any width
 _STANDS = 0.3  # of its width, how far a thumbstick stands above its well: buttons stand less
-_CURVED = (0.015, 0.04)  # [m] length of a trigger or of a squeeze: about one finger's, or two
+_CURVED = (0.015, 0.055)  # [m] length of a trigger or of a squeeze: about one finger's, or two
+_MOST_ALONE = 2  # triggers with nothing on top: one a finger
 _COMPACT = 2.2  # length over width at most: longer is a seam, a strap or a stripe
 _ROUND = 1.25  # length over width at most, of what is round
 _ON_TOP = ("button", "touchpad", "thumbstick")
@@ -34,14 +35,15 @@ _Said = tuple[str, str]
 
 
 def hand_controls(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
-    """What fingers move; triggers and squeezes only with something on top, which tells how it lies."""
+    """What fingers move; squeezes, and triggers unless there is one, only with something on top."""
     if scene.box.size.max() * scene.size > _HELD or scene.count < 2:
         return []
     caps = _caps(scene, taken)
     found = _alone(caps, _told({piece: _on_top(cap, scene.size) for piece, cap in caps.items()}))
-    if not found:
+    around = _told({p: _around(cap, scene.size) for p, cap in caps.items() if p not in found})
+    if not found and (len(around) > _MOST_ALONE or {label for label, _ in around.values()} != {"trigger"}):
         return []
-    found |= _told({p: _around(cap, scene.size) for p, cap in caps.items() if p not in found})
+    found |= around
     if len(found) == 1 and not _sure_alone(caps, *found.items()):
         return []
     movers, used = [], set(taken) | set(found)
@@ -80,7 +82,8 @@ def _is_key(caps: dict[int, Cap], piece: int) -> bool:
 def _sure_alone(caps: dict[int, Cap], one: tuple[int, _Said]) -> bool:
     """Whether one control needs no company: alone, a stick is a lid's knob, and what is not round a plate."""
     piece, (label, _) = one
-    return label != "thumbstick" and caps[piece].wide < _ROUND * caps[piece].narrow
+    round_cap = caps[piece].wide < _ROUND * caps[piece].narrow
+    return label == "trigger" or (label != "thumbstick" and round_cap)
 
 
 def _caps(scene: Scene, taken: Set[int]) -> dict[int, Cap]:
@@ -116,9 +119,9 @@ def _around(cap: Cap, metre: float) -> _Said | None:
     """Label and reason of what fingers pull from below, or press from a side."""
     if not _CURVED[0] < cap.wide * metre < _CURVED[1] or cap.wide > _COMPACT * cap.narrow:
         return None
-    if cap.outward[2] < _DOWN and cap.rimmed > 0.6 and cap.proud > 0.3 * cap.wide:
+    if cap.outward[2] < _DOWN and cap.rimmed > 0.5 and cap.proud > 0.3 * cap.wide:
         return "trigger", "a thick piece hangs out below, under a finger"
-    beside = abs(cap.outward[0]) > _SIDEWAYS and cap.rimmed > 0.9
+    beside = abs(cap.outward[0]) > _SIDEWAYS and cap.rimmed > 0.85
     if beside and cap.proud * metre > 2 * _PROUD and cap.proud < 0.4 * cap.wide:
         return "squeeze", "a small cap in the side, under a finger"
     return None
