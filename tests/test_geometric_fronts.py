@@ -54,6 +54,13 @@ def test_low_wide_fronts_are_drawn_wherever_up_their_handle_is(up: float) -> Non
     )
 
 
+@pytest.mark.parametrize(("upright", "name"), [(True, "door"), (False, "drawer")])
+def test_a_low_front_with_an_upright_bar_is_a_door_as_of_a_microwave(upright: bool, name: str) -> None:
+    body = carcass((-0.25, 0.25), (-0.2, 0.2), (0.0, 0.26))
+    front, handle = panel((-0.229, 0.229), -0.2, ROWS[0]), bar(0.08, 0.13, -0.2, half=0.08, upright=upright)
+    assert list(found([*body, front, handle]).kinds) == [name]
+
+
 def test_the_pedestal_that_bears_the_drawers_of_a_desk_is_none() -> None:
     top = box((-0.7, 0.7), (-0.32, 0.32), (0.7, 0.72))
     pedestal = box((0.2, 0.65), (-0.28, 0.28), (0.0, 0.7))

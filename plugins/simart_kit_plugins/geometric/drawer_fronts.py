@@ -21,9 +21,9 @@ _LEVEL = 0.03  # diagonals between their edges, and half of what is between thei
 def like_drawer(front: Front) -> bool:
     """A low, wide front with its handles in the middle: the box behind was left out of the model.
 
-    What is so wide that it is no flap may have them higher or lower.
+    What is so wide that it is no flap may have them higher or lower. None is an upright bar, as on doors.
     """
-    if front.held is None or not _low(front):
+    if front.held is None or front.upright or not _low(front):
         return False
     up = abs(float(front.held[1]))
     return not held_aside(front) and (up < _MIDDLE or _times(front) > STRIP)

@@ -28,6 +28,7 @@ _WHOLE = 0.9  # share of a panel's rectangle that it fills
 _SMALLER = 0.95  # the same of a board that lies on a panel: a larger one is another panel
 _OVERHANG = 0.05  # of its width or height that a handle may reach over its panel's edge
 _GRIPS = 0.15  # share of a panel's rectangle that what one takes hold of covers at most
+_BAR, _LONG = 2.5, 0.4  # so many times as high as wide, and so much of its panel's height, an upright bar is
 _PULL = 0.5  # of its panel's shorter side that a low pull takes at most
 _AROUND = np.diag([-1.0, 1.0, -1.0])  # (u, v, w) as seen from the other side
 
@@ -57,6 +58,7 @@ class Front:
         held: (2,) how far from its middle the middle of its handles is, or of pulls so low that they are
             inlays, as shares of its width and height; None without any.
         grips: how many handles there are that do not touch each other.
+        upright: whether one of them is an upright bar, as on doors.
     """
 
     piece: int
@@ -78,6 +80,7 @@ class Front:
     tall: float
     held: FloatArray | None
     grips: int
+    upright: bool
 
     @property
     def pieces(self) -> tuple[int, ...]:
@@ -156,6 +159,7 @@ def _front(
         tall=float(box.size[1] / whole.size[1]),
         held=_held(boxes, piece, handles or _pulls(boxes, piece, inlays)),
         grips=_separate(contacts, boxes, handles),
+        upright=any(_stands(boxes[i], box) for i in handles),
     )
 
 
@@ -290,6 +294,12 @@ def _separate(contacts: Contacts, boxes: list[Box], handles: tuple[int, ...]) ->
         on = hanging_on({left[0]}, left, lambda i, j: meet(contacts, boxes, i, j))
         left, groups = [i for i in left if i not in on], groups + 1
     return groups
+
+
+def _stands(handle: Box, panel: Box) -> bool:
+    """Whether a handle is a bar along much of the height of its panel."""
+    wide, high = handle.size[:2]
+    return bool(high > _BAR * wide and high > _LONG * panel.size[1])
 
 
 def _glazing_bar(box: Box, panel: Box) -> bool:
