@@ -19,10 +19,10 @@ RADIUS, WIDE = 0.15, 0.08
 
 
 def wheel(
-    at: tuple[float, float, float], radius: float = RADIUS, axis: int = 0
+    at: tuple[float, float, float], radius: float = RADIUS, axis: int = 0, wide: float = WIDE
 ) -> tuple[FloatArray, IntArray]:
     """(F, 3, 3) triangles of a disc as rough as a voxel in ten of its radius, and 1 for those of its rim."""
-    disc = trimesh.creation.cylinder(radius, WIDE, sections=48)
+    disc = trimesh.creation.cylinder(radius, wide, sections=48)
     rough = np.random.default_rng(0).normal(1.0, 0.03, len(disc.vertices))[:, None]
     points = disc.vertices * np.hstack([rough, rough, np.ones_like(rough)])
     rim = np.abs(disc.face_normals[:, 2]) < 0.5
@@ -48,6 +48,18 @@ def found(wheels: list[tuple[FloatArray, IntArray]]) -> list[set[int]]:
 
 def test_wheels_alike_on_the_ground_move_each_with_its_faces_and_rim() -> None:
     assert found([wheel(place) for place in PLACES]) == [{1, 2}, {3, 4}, {5, 6}, {7, 8}]
+
+
+@pytest.mark.parametrize("count", [2, 4])
+def test_rolls_as_wide_as_high_are_wheels_where_they_are_more_than_two(count: int) -> None:
+    assert len(found([wheel(place, wide=2 * RADIUS) for place in PLACES[:count]])) == (4 if count == 4 else 0)
+
+
+def test_the_other_one_of_a_wheel_may_be_of_pieces_none_of_which_is_round() -> None:
+    whole, (faces, _) = wheel((0.0, -0.5, RADIUS)), wheel((0.0, 0.5, RADIUS))
+    halves = (faces[:, :, 2].mean(axis=1) > 1.2 * RADIUS).astype(np.int64)
+    assert found([whole, (faces, halves)]) == [{1, 2}, {3, 4}]
+    assert found([whole, (faces[halves == 1], 0 * halves[halves == 1])]) == []
 
 
 def test_one_disc_alone_or_with_one_of_another_size_is_no_wheel() -> None:

@@ -42,6 +42,7 @@ from .rounds import round_axis
 from .sashes import SASHES, sliding
 from .scene import Box, Scene, make_scene
 from .seats import turned_up
+from .skin_wheels import THICK
 from .spray_arms import SPRAY_ARMS, whirling
 from .supports import unheld
 from .views import View, view_part
@@ -133,7 +134,7 @@ def _spinning(scene: Scene, view: View) -> Choice | None:
     points = scene.points_of(view.part)
     axis = round_axis(points)
     if axis is None:
-        disc = rough_disc(points)
+        disc = rough_disc(points, THICK)
         if disc is None:
             return None
         axis = disc.axis
