@@ -9,7 +9,8 @@ import numpy as np
 from .arrays import BoolArray, FloatArray, IntArray, frozen_ints
 from .kept import kept
 from .mesh import Mesh
-from .skins.relief import is_fine, relief_pieces
+from .skins.fineness import are_shells, is_fine
+from .skins.relief import relief_pieces
 from .topology import connected, first_alike, half_edges, shared_by_two, touching, weld
 from .touching_solids import plugs
 from .triangles import cosines
@@ -19,6 +20,7 @@ CREASE_ANGLE = np.deg2rad(25.0)
 # A component that spans the object may be several solids welded together. It is fused when one of them still
 # spans the object and holds nearly all of its surface.
 _SPANNING, _FUSED_AREA = 0.95, 0.85
+_MAIN_AREA = 0.9  # the same of a skin that does not span all because of stray shells, as fine as it is
 _SOME = 32  # each so many faces are a first look at how far they extend
 
 
@@ -160,9 +162,10 @@ def _pieces(
     else:  # what touches the largest and is closed is not of it
         body = found == np.bincount(found, surface.areas, 1).argmax()
         found = np.where(body & joints.closed(sheets), found.max(initial=-1) + 1 + sheets, found)
-    if spanning is None or surface.share(found == spanning) < _FUSED_AREA:
+    fused = surface.fused(found, spanning)
+    if fused is None:
         return found, False
-    inside = found == spanning
+    inside = found == fused
     if relief and is_fine(mesh, kept[inside]):
         pieces = relief_pieces(mesh, corners[inside], kept[inside])
     elif inside.all():
@@ -203,6 +206,15 @@ class _Surface:
             if (np.array([np.ptp(column) for column in columns]) >= _SPANNING * whole).all():
                 return largest
         return None
+
+    def fused(self, labels: IntArray, spanning: int | None) -> int | None:
+        """The one of (K,) labels that is several solids in one, if any: nearly all of the surface."""
+        if spanning is not None:
+            return spanning if self.share(labels == spanning) >= _FUSED_AREA else None
+        if not are_shells(self.mesh, self.face_ids, labels):
+            return None
+        main = int(np.bincount(labels, self.areas).argmax())
+        return main if self.share(labels == main) >= _MAIN_AREA else None
 
     def share(self, inside: BoolArray) -> float:
         """Share of the area that lies in (K,) some of the faces."""

@@ -9,34 +9,32 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..alignment import straight_from_asset
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..mesh import Mesh
 from ..normals import with_normals
 from ..srgb import linear_to_srgb
 from ..topology import without_gaps
 from .boards import with_faces_joined
+from .fineness import RADIUS
 from .frames import with_frames_shared_out
 from .graph import SkinGraph, skin_graph, unit
+from .lobes import with_lobes_whole
 from .partings import with_fronts_parted
+from .sides import ways, with_sides_parted
 
-# Radius of the surroundings, as a share of the longest side, and the most steps that they are wide.
-_RADIUS, _STEPS = 0.022, 40
+# The most steps that the surroundings are wide.
+_STEPS = 40
 # How far, in radii, the mean of the surroundings lies above a vertex in a groove, and below one at an edge.
 _GROOVE, _EDGE = 0.03, 0.05
+# Fainter grooves count where there are no mouldings: on what is not boxy. Of that less looks along the axes.
+_FAINT, _BOXY = 0.02, 0.6
 # Least difference of neighbouring vertices at a seam, of 0..1; a piece that seams bound is no smaller than
 # this share of the surface, for stains are none.
 _SEAM, _LEAST_COLORED = 0.12, 0.006
 _LEAST = 0.0006  # share of the surface that a piece has at least
 _BIG = 0.1  # share from which on a piece is cut at its sharp edges too
 _NARROW = 0.013  # width, in longest sides, below which a piece is but the wall of a step
-
-
-def is_fine(mesh: Mesh, kept: IntArray) -> bool:
-    """Whether triangles that are small against the surroundings make up most of some faces' surface."""
-    areas = np.sort(mesh.face_areas[kept])
-    middle = areas[np.searchsorted(np.cumsum(areas), areas.sum() / 2)]
-    side = np.sqrt(middle * 4 / np.sqrt(3))
-    return bool(side < _RADIUS * np.ptp(mesh.bounds, axis=0).max())
 
 
 def relief_pieces(mesh: Mesh, corners: IntArray, kept: IntArray) -> IntArray:
@@ -53,20 +51,30 @@ def relief_pieces(mesh: Mesh, corners: IntArray, kept: IntArray) -> IntArray:
     graph = skin_graph(places, faces, mesh.face_normals[kept], mesh.face_areas[kept])
     facing = unit(graph.means(graph.normals, 2))
     height = _height(graph, facing)
-    barrier = (height > _GROOVE) | _seams(graph, _colors(mesh, faces, kept, len(used), graph.spacing))
-    piece = graph.pieces(barrier)
-    area = np.bincount(piece, graph.areas * ~barrier)
-    barrier |= (area > _BIG * graph.areas.sum())[piece] & (height < -_EDGE)
-    piece = graph.filled(graph.pieces(barrier), barrier, _LEAST)
-    piece = graph.filled(piece, _narrow(graph, piece)[piece], _LEAST)
+    way = ways(facing @ straight_from_asset(mesh).T)
+    boxy = graph.areas[way >= 0].sum() > _BOXY * graph.areas.sum()
+    seams = _seams(graph, _colors(mesh, faces, kept, len(used), graph.spacing))
+    piece = _pieces(graph, height, (height > (_GROOVE if boxy else _FAINT)) | seams)
+    if not boxy:
+        piece = with_lobes_whole(graph, piece, height)
+    piece = with_sides_parted(graph, piece, way, _LEAST)
     piece = with_frames_shared_out(graph, piece, facing)
     piece = with_fronts_parted(graph, with_faces_joined(graph, piece, facing, faces), facing)
     return _of_faces(piece, faces)
 
 
+def _pieces(graph: SkinGraph, height: FloatArray, barrier: BoolArray) -> IntArray:
+    """(V,) labels 0.. of what (V,) barriers part, and large ones sharp edges; strips are none."""
+    piece = graph.pieces(barrier)
+    area = np.bincount(piece, graph.areas * ~barrier)
+    barrier = barrier | ((area > _BIG * graph.areas.sum())[piece] & (height < -_EDGE))
+    piece = graph.filled(graph.pieces(barrier), barrier, _LEAST)
+    return graph.filled(piece, _narrow(graph, piece)[piece], _LEAST)
+
+
 def _height(graph: SkinGraph, facing: FloatArray) -> FloatArray:
     """(V,) how far the surroundings' mean lies above each vertex along (V, 3) `facing`, in their radii."""
-    steps = int(np.clip(round((_RADIUS * graph.size / graph.spacing) ** 2 / 2), 2, _STEPS))
+    steps = int(np.clip(round((RADIUS * graph.size / graph.spacing) ** 2 / 2), 2, _STEPS))
     above = np.einsum("vi,vi->v", graph.means(graph.places, steps) - graph.places, facing)
     return graph.means(above / (graph.spacing * np.sqrt(steps)), 1)
 

@@ -1,0 +1,32 @@
+"""Whether a surface is meshed finely enough to be cut by relief, and shells alike."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import IntArray
+from ..mesh import Mesh
+
+RADIUS = 0.022  # of the surroundings that relief goes by, as a share of the longest side
+_SHELLS = 12  # a skin has so many at most
+_UNEVEN = 1.25  # so many times as coarse one of them is as another at most
+
+
+def is_fine(mesh: Mesh, kept: IntArray) -> bool:
+    """Whether triangles that are small against the surroundings make up most of some faces' surface."""
+    return _coarseness(mesh, kept) < 1
+
+
+def are_shells(mesh: Mesh, kept: IntArray, label: IntArray) -> bool:
+    """Whether (K,) few labels of the `kept` faces are as finely meshed as each other: shells of one skin."""
+    if not 1 < len(np.unique(label)) <= _SHELLS:
+        return False
+    coarse = [_coarseness(mesh, kept[label == shell]) for shell in np.unique(label)]
+    return max(coarse) < min(1, _UNEVEN * min(coarse))
+
+
+def _coarseness(mesh: Mesh, kept: IntArray) -> float:
+    """Side of the middle triangle by surface, in radii of the surroundings."""
+    areas = np.sort(mesh.face_areas[kept])
+    middle = areas[np.searchsorted(np.cumsum(areas), areas.sum() / 2)]
+    return float(np.sqrt(middle * 4 / np.sqrt(3)) / (RADIUS * np.ptp(mesh.bounds, axis=0).max()))
