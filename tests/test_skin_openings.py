@@ -103,6 +103,23 @@ def test_two_panes_in_frames_with_a_handle_turn_with_their_frames() -> None:
     assert [set(mover.pieces) for mover in found] == [{1, 2, 3}, {4, 5, 6}]
 
 
+@pytest.mark.parametrize("bar", [0.03, 0.15])
+def test_panes_above_one_another_with_but_a_bar_between_are_of_one_leaf(bar: float) -> None:
+    """With a beam between they are two windows of four panes, of which nothing is told."""
+    skin = jambs()
+    middle = (0.5 - bar / 2, 0.5 + bar / 2)
+    for x, first in (((0.04, 0.40), 1), ((0.40, 0.76), 5)):
+        inside = (x[0] + 0.06, x[1] - 0.06)
+        beam = ((inside[0], -0.01, middle[0]), (inside[1], 0.02, middle[1]))
+        for box in [*bars((x[0], 0.04), (x[1], 0.96), (-0.01, 0.02), 0.06), beam]:
+            skin.add(box, first, first + 1, -1)
+        for piece, z in ((first + 2, (0.10, middle[0])), (first + 3, (middle[1], 0.90))):
+            skin.add(((inside[0], 0.0, z[0]), (inside[1], 0.01, z[1])), piece, piece, piece)
+    handle(skin, 0.37, 1)
+    found = [set(mover.pieces) for mover in skin.leaves()]
+    assert found == ([{1, 2, 3, 4}, {5, 6, 7, 8}] if bar < 0.1 else [])
+
+
 def test_a_single_pane_in_a_frame_with_a_handle_turns_unless_it_is_known() -> None:
     skin = jambs()
     pane(skin, (0.04, 0.76), (0.04, 0.96), 0.0, 1)

@@ -6,7 +6,7 @@ Such a window stands upright and is thin. Extents leave out the ends of pieces, 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
@@ -26,10 +26,11 @@ _FACE = 0.3  # share of a pane's surface that each of its faces has
 _LEAST = 0.15  # share of the whole's width and height that a pane takes
 _ALONE = 0.4  # the same of a pane that is no pair's
 _RIM = 0.4  # share of a frame's surface that looks to one side
-_WIDER = 1.7  # so many times as wide and high as its pane a frame is at most
+_BAR = 0.3  # of its height by which a pane may be above another of the same leaf
+_WIDER = 1.8  # so many times as wide and high as its pane a frame is at most
 _SAME = 0.15  # of their size by which the panes of two leaves may differ
 _LEVEL = 0.03  # diagonals by which they may be out of line
-_BETWEEN = 0.5  # of its width by which two panes may be apart: the frames meet there
+_BETWEEN = 0.5  # of its longer side by which two panes may be apart: the frames meet there
 _TRACK = 0.006  # diagonals between the middles of panes that pass by each other, at least
 _OUT, _GRIP = 0.01, 0.4  # how far handles stand out [diagonals], and the share of the leaf that they take
 _SMALL = 0.1  # share of the whole surface below which a piece goes with the leaf in which it lies
@@ -168,7 +169,29 @@ def _piece(piece: int, middles: FloatArray, normals: FloatArray, shares: FloatAr
 
 def _leaves(seen: Sequence[_Piece], whole: FloatArray) -> list[_Leaf]:
     panes = [one for one in seen if one.faces.min() > _FACE and (one.size[:2] > _LEAST * whole[:2]).all()]
+    panes = _columns(panes)
     return [_Leaf(pane, tuple(one for one in seen if _frames(one, pane, panes))) for pane in panes]
+
+
+def _columns(panes: Sequence[_Piece]) -> list[_Piece]:
+    """Panes, those above one another with but a bar between as one: in one plane, as sashes are not."""
+    columns: list[_Piece] = []
+    for pane in sorted(panes, key=lambda one: float(one.lower[1])):
+        below = next((one for one in columns if _barred(one, pane)), None)
+        if below is None:
+            columns.append(pane)
+        else:
+            upper, share = np.maximum(below.upper, pane.upper), below.share + pane.share
+            columns[columns.index(below)] = replace(below, upper=upper, share=share)
+    return columns
+
+
+def _barred(below: _Piece, pane: _Piece) -> bool:
+    """Whether a pane is right above another, as wide and in its plane."""
+    ends = np.abs([pane.lower[0] - below.lower[0], pane.upper[0] - below.upper[0]]).max()
+    between = float(pane.lower[1] - below.upper[1])
+    level = abs(pane.center[2] - below.center[2]) < _TRACK
+    return bool(level and ends < _SAME * pane.size[0] and 0 < between < _BAR * pane.size[1])
 
 
 def _frames(one: _Piece, pane: _Piece, panes: Sequence[_Piece]) -> bool:
@@ -186,7 +209,7 @@ def _follows(one: _Piece, other: _Piece) -> int | None:
         return None
     apart = np.abs(one.center[:2] - other.center[:2])
     for along in (0, 1):
-        near = 1 - _BETWEEN < apart[along] / size[along] < 1 + _BETWEEN
+        near = -_BETWEEN * size[along] < apart[along] - size[along] < _BETWEEN * size.max()
         if near and apart[1 - along] < _LEVEL:
             return along
     return None
