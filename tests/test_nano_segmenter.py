@@ -28,6 +28,8 @@ from simart_kit.segments import find_segments
 from simart_kit.srgb import linear_to_srgb, srgb_to_linear
 from simart_kit.testing.meshes import boxes_mesh, cabinet_asset
 
+from .test_skins import SLAB, skin
+
 TINY = {"channels": 16, "layers": 1, "heads": 2, "hidden": 16, "point_channels": 8}
 CONFIG = NanoConfig(**TINY, labels=("door", "drawer"), categories=("cabinet",))
 SURE = 12.0
@@ -289,6 +291,14 @@ def test_parts_that_are_not_sure_enough_stay_with_the_body_and_are_told(monkeypa
     told = [note.text for note in found.notes if "not sure enough" in note.text]
     assert len(told) == 2
     assert all(text.startswith("a door that the network took for revolute") for text in told)
+
+
+@pytest.mark.parametrize("pool", [True, False])
+def test_a_recording_of_a_skin_shows_the_pieces_that_geometry_found_its_parts_by(pool):
+    mesh = skin(SLAB)
+    found = Nano(read_options(Nano, {"pool": pool})).segment(mesh)
+    by_relief = find_segments(mesh, relief=True).face_segment
+    assert np.array_equal(found.face_segment, by_relief) == pool
 
 
 @pytest.mark.parametrize(

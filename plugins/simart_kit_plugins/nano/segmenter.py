@@ -121,6 +121,9 @@ class Nano(Segmenter):
             found = self._of_pieces(mesh, said, seen, geometry, material, spec)
         assert found.face_segment is not None
         shown = evidence(found.mesh_of(mesh), found.face_segment, said, seen)
+        if seen.skin and asked and (fronts or len(found.parts) == 1):
+            # What geometry looked at tells more of it than what the network read.
+            found = replace(found, face_segment=find_segments(mesh, relief=True).face_segment)
         return replace(
             found,
             notes=_notes(said, seen, 0.0 if moves else still, bar, len(found.parts) - 1),
