@@ -100,6 +100,20 @@ class TestLobes:
         graph, label, lobe = self.whole(0.0)
         assert graph.areas[label == 1].sum() == pytest.approx(graph.areas[lobe == 1].sum() / 2, rel=0.2)
 
+    def test_shells_and_pieces_of_few_places_stay_as_they_are(self) -> None:
+        """A small shell has no border at all, and a piece of one vertex a hollow one of a place or two."""
+        large, small = skin(ball(0.4), (1.0, 1.0, 1.0), 0.03), skin(ball(0.06), (0.3, 0.3, 0.3), 0.03)
+        count = len(large.vertices)
+        both = Mesh(
+            np.concatenate([large.vertices, small.vertices]),
+            np.concatenate([large.faces, small.faces + count]),
+        )
+        label = np.concatenate([np.zeros(count), np.ones(len(small.vertices))]).astype(np.int64)
+        label[0] = 2
+        for height in (0.03, -0.03):
+            found = with_lobes_whole(graph_of(both), label, np.full(len(label), height))
+            np.testing.assert_array_equal(found, label)
+
 
 class TestFaintGrooves:
     def test_low_buttons_of_a_handle_are_pieces(self) -> None:

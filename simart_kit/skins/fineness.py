@@ -19,9 +19,10 @@ def is_fine(mesh: Mesh, kept: IntArray) -> bool:
 
 def are_shells(mesh: Mesh, kept: IntArray, label: IntArray) -> bool:
     """Whether (K,) few labels of the `kept` faces are as finely meshed as each other: shells of one skin."""
-    if not 1 < len(np.unique(label)) <= _SHELLS:
+    shells = np.flatnonzero(np.bincount(label, minlength=1))
+    if not 1 < len(shells) <= _SHELLS:
         return False
-    coarse = [_coarseness(mesh, kept[label == shell]) for shell in np.unique(label)]
+    coarse = [_coarseness(mesh, kept[label == shell]) for shell in shells]
     return max(coarse) < min(1, _UNEVEN * min(coarse))
 
 

@@ -11,6 +11,7 @@ from .graph import SkinGraph
 _LEAST, _MOST = 0.004, 0.08  # shares of the surface that such a piece has before
 _HOLLOW, _SHARP = 0.01, 0.02  # heights from which on its border is hollow, or a sharp edge
 _PARTS = 0.25  # share of its border that is so, each
+_FEW = 6  # fewer places tell no plane
 _FLAT = 0.35  # how far off their plane the hollow places are, as a share of how far they spread
 _LARGER = 3.0  # so many times its area what it is taken from has
 _STANDS = 0.3  # how far it stands out, as a share of the radius of a disc as large
@@ -34,7 +35,7 @@ def with_lobes_whole(graph: SkinGraph, label: IntArray, height: FloatArray) -> I
     for piece in np.flatnonzero((area > _LEAST * area.sum()) & (area < _MOST * area.sum())):
         rim = np.flatnonzero(border & (label == piece))
         hollow = rim[height[rim] > _HOLLOW]
-        if len(hollow) < _PARTS * len(rim) or (height[rim] < -_SHARP).sum() < _PARTS * len(rim):
+        if len(hollow) < max(_PARTS * len(rim), _FEW) or (height[rim] < -_SHARP).sum() < _PARTS * len(rim):
             continue
         own = label == piece
         lobe = _beyond(graph, own | (area[label] > _LARGER * area[piece]), own, hollow)

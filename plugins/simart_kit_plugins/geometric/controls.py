@@ -35,7 +35,7 @@ _Said = tuple[str, str]
 
 
 def hand_controls(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
-    """What fingers move; squeezes, and triggers unless there is one, only with something on top."""
+    """What fingers move; without anything on top one or two triggers alone, and no squeezes."""
     if scene.box.size.max() * scene.size > _HELD or scene.count < 2:
         return []
     caps = _caps(scene, taken)
