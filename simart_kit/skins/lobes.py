@@ -33,11 +33,11 @@ def with_lobes_whole(graph: SkinGraph, label: IntArray, height: FloatArray) -> I
     border[graph.edges[apart]] = True
     result = label.copy()
     for piece in np.flatnonzero((area > _LEAST * area.sum()) & (area < _MOST * area.sum())):
-        rim = np.flatnonzero(border & (label == piece))
+        own = label == piece
+        rim = np.flatnonzero(border & own)
         hollow = rim[height[rim] > _HOLLOW]
         if len(hollow) < max(_PARTS * len(rim), _FEW) or (height[rim] < -_SHARP).sum() < _PARTS * len(rim):
             continue
-        own = label == piece
         lobe = _beyond(graph, own | (area[label] > _LARGER * area[piece]), own, hollow)
         if lobe is not None and graph.areas[lobe].sum() < _GROWS * area[piece]:
             result[lobe] = piece

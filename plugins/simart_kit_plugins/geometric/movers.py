@@ -65,7 +65,7 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
 
     On a fused skin every patch closes the cavity within. There those with handles count, unless they take a
     whole side of the body and have them in the middle, boards with a handle and their twins, the panels of a
-    parted side, and round ones, and several alike of one piece with their handles.
+    parted side, round ones, and several alike of one piece with their handles.
     """
     fronts = {facing: find_fronts(scene, contacts, facing, fused) for facing in FACINGS}
     in_rows = {facing: [] if fused else _rows(scene, fronts[facing]) for facing in FACINGS}

@@ -77,10 +77,9 @@ def _at(disc: Disc, along: int, middle: float, box: Box) -> Disc:
 
 def _is_round(scene: Scene, disc: Disc, taken: Set[int]) -> bool:
     """Whether the pieces within a disc are its rim."""
-    pieces = _within(scene, disc, taken)
-    across = [other for other in range(3) if other != disc.axis]
-    offset = np.concatenate([np.zeros((1, 2)), *(scene.points_of(p)[:, across] for p in pieces)])[1:]
-    return bool(pieces) and rim_share(offset - disc.center[across], disc.radius) > _RIM
+    faces = scene.faces_of(tuple(_within(scene, disc, taken)))
+    offset = scene.triangles[faces].reshape(-1, 3) - disc.center
+    return rim_share(np.delete(offset, disc.axis, axis=1), disc.radius) > _RIM
 
 
 def _is_thick(disc: Disc) -> bool:
