@@ -54,6 +54,8 @@ class TestHandHeld:
     def test_a_trigger_tells_by_itself_that_a_thing_is_held_and_a_grip_at_its_side_does_not(self) -> None:
         long = box((-0.01, 0.01), (0.035, 0.065), (-0.018, 0.01))
         assert found(boxes_mesh([*BODY, long])).kinds == {"trigger": "revolute"}
+        other = box((-0.01, 0.01), (-0.065, -0.035), (-0.018, 0.01))
+        assert not found(boxes_mesh([*BODY, long, other])).joints  # feet
         assert not found(boxes_mesh([*BODY, GRIP])).joints
 
     def test_a_trigger_hangs_at_its_front_and_is_pulled_back(self) -> None:

@@ -24,7 +24,6 @@ _FIELD, _PITCH = 12, 1.35  # more caps alike than this, so close in widths, are 
 _LEVEL = 40  # so are those among more caps than this that face the same way at one height, of any width
 _STANDS = 0.3  # of its width, how far a thumbstick stands above its well: buttons stand less
 _CURVED = (0.015, 0.055)  # [m] length of a trigger or of a squeeze: about one finger's, or two
-_MOST_ALONE = 2  # triggers with nothing on top: one a finger
 _COMPACT = 2.2  # length over width at most: longer is a seam, a strap or a stripe
 _ROUND = 1.25  # length over width at most, of what is round
 _ON_TOP = ("button", "touchpad", "thumbstick")
@@ -35,13 +34,13 @@ _Said = tuple[str, str]
 
 
 def hand_controls(scene: Scene, contacts: Contacts, taken: Set[int]) -> list[Mover]:
-    """What fingers move; without anything on top one or two triggers alone, and no squeezes."""
+    """What fingers move; without anything on top one trigger alone: two are the feet of a thing."""
     if scene.box.size.max() * scene.size > _HELD or scene.count < 2:
         return []
     caps = _caps(scene, taken)
     found = _alone(caps, _told({piece: _on_top(cap, scene.size) for piece, cap in caps.items()}))
     around = _told({p: _around(cap, scene.size) for p, cap in caps.items() if p not in found})
-    if not found and (len(around) > _MOST_ALONE or {label for label, _ in around.values()} != {"trigger"}):
+    if not found and [label for label, _ in around.values()] != ["trigger"]:
         return []
     found |= around
     if len(found) == 1 and not _sure_alone(caps, *found.items()):
