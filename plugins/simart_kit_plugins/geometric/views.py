@@ -8,10 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from simart_kit.arrays import FloatArray, IntArray
+from simart_kit.topology import connected, neighbours, weld
+from simart_kit.triangles import areas
 
 from .scene import FACINGS, Box, Scene
 
 _STICKS_OUT = 0.006  # of the diagonal: flatter ornament is not a handle
+_SAME = 1e-6  # diagonals within which corners are at one place
+_CRUMB = 0.1  # of the largest thing that sticks out: what is smaller is no handle
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,13 +70,22 @@ def view_part(scene: Scene, part: int, sides: Sequence[str] = tuple(FACINGS)) ->
     whole = Box(corners.min(axis=(0, 1)), corners.max(axis=(0, 1)))
     box, handle = whole, None
     if whole.upper[2] - front > _STICKS_OUT:
-        out = corners[(corners[:, :, 2] > front + 0.3 * (whole.upper[2] - front)).all(axis=1)].reshape(-1, 3)
+        out = corners[(corners[:, :, 2] > front + 0.3 * (whole.upper[2] - front)).all(axis=1)]
+        out = _without_crumbs(out).reshape(-1, 3) if len(out) else out
         if len(out) and np.prod(np.ptp(out[:, :2], axis=0)) < 0.4 * np.prod(whole.size[:2]):
             handle = Box(out.min(axis=0), out.max(axis=0))
             box = Box(whole.lower, np.array([whole.upper[0], whole.upper[1], front]))
     box = _without_back_handle(corners, box)
     foot = box.center[:2] if handle is None else _foot(corners, front, handle)
     return View(part, facing, box, handle, foot, scene.box.turned(axes), ajar)
+
+
+def _without_crumbs(corners: FloatArray) -> FloatArray:
+    """The (F, 3, 3) triangles without crumbs: at the ragged border of a skin's part some stick out."""
+    _, one, two = neighbours(weld(corners.reshape(-1, 3), _SAME).reshape(-1, 3))
+    group = connected(len(corners), one, two)
+    area = np.bincount(group, areas(corners))[group]
+    return np.asarray(corners[area >= _CRUMB * area.max()])
 
 
 def _without_back_handle(corners: FloatArray, box: Box) -> Box:
