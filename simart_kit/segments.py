@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from .arrays import BoolArray, FloatArray, IntArray, frozen_ints
+from .arrays import BoolArray, FloatArray, IntArray, frozen_bools, frozen_ints
+from .bounds import bounds_of
 from .kept import kept
 from .mesh import Mesh
-from .skins.fineness import are_shells, is_fine
+from .skins.aside import aside_of_skin, pieces_before
+from .skins.fineness import are_shells, is_fine, is_rough
 from .skins.relief import relief_pieces
-from .topology import connected, first_alike, half_edges, shared_by_two, touching, weld
+from .topology import connected, first_alike, half_edges, occurring, shared_by_two, touching, weld
 from .touching_solids import plugs
 from .triangles import cosines
 
@@ -35,6 +38,8 @@ class Segments:
         duplicates: faces that repeat an earlier one; they share its segment.
         degenerates: faces without area; they join nothing, and share the largest segment that they touch.
         patches: whether a fused component was cut at its creases.
+        aside: (F,) which faces are of shells that tell nothing of a skin, as the inner sides of its walls and
+            strays are; each is of the segment next to it.
     """
 
     face_segment: IntArray
@@ -43,6 +48,7 @@ class Segments:
     duplicates: int
     degenerates: int
     patches: bool
+    aside: BoolArray
 
     def describe(self) -> str:
         """One sentence for the report."""
@@ -50,7 +56,17 @@ class Segments:
         text = f"{self.count} {kind}"
         if self.duplicates or self.degenerates:
             text += f"; {self.duplicates} duplicate and {self.degenerates} degenerate faces not analysed"
-        return text
+        return f"{text}; {self.told_aside}" if self.told_aside else text
+
+    @property
+    def told_aside(self) -> str:
+        """What is aside of a skin, in words for the report; "" where nothing is."""
+        count = int(self.aside.sum())
+        return (
+            f"{count} faces of inner sides of walls and of strays go with what is next to them"
+            if count
+            else ""
+        )
 
 
 def find_segments(
@@ -122,11 +138,13 @@ def _cut(mesh: Mesh, of: _Faces, crease: float, node_hint: bool, relief: bool) -
     keys = of.corners
     if node_hint and mesh.face_node is not None:
         keys = keys + int(keys.max() + 1) * mesh.face_node[:, None]
-    found, fused = _pieces(mesh, keys.take(looked_at, axis=0), looked_at, crease, relief)
+    found, fused, aside = _pieces(mesh, keys.take(looked_at, axis=0), looked_at, crease, relief)
     labels = np.zeros(len(keys), dtype=np.int64)
     labels[looked_at] = _by_area(found, mesh.face_areas.take(looked_at))
     labels[of.degenerate] = _largest_beside(labels, of.corners, of.degenerate, looked_at)
     labels[of.duplicate] = labels[of.first[of.duplicate]]
+    beside = np.zeros(len(keys), dtype=np.bool_)
+    beside[looked_at[aside]] = True
     return Segments(
         frozen_ints(labels),
         of.vertex,
@@ -134,13 +152,14 @@ def _cut(mesh: Mesh, of: _Faces, crease: float, node_hint: bool, relief: bool) -
         int(of.duplicate.sum()),
         int(of.degenerate.sum()),
         fused,
+        frozen_bools(beside),
     )
 
 
 def _pieces(
     mesh: Mesh, corners: IntArray, kept: IntArray, crease: float, relief: bool
-) -> tuple[IntArray, bool]:
-    """(K,) labels of the `kept` faces, and whether a fused component was cut at its creases.
+) -> tuple[IntArray, bool, BoolArray]:
+    """(K,) labels of the `kept` faces, whether a fused component was cut, and (K,) what is aside of it.
 
     Args:
         mesh: the faces' mesh.
@@ -153,6 +172,25 @@ def _pieces(
     joints = _joints(corners, kept, mesh.face_normals)
     smooth = joints.patches(crease)
     sheets = joints.patches(np.pi, smooth)
+    found, fused = _shells(surface, corners, joints, sheets)
+    if fused is None:
+        return _pieces_of_skin(surface, corners, found, smooth, crease, relief)
+    inside = found == fused
+    if relief and (is_fine(mesh, kept[inside]) or is_rough(smooth[inside])):
+        pieces = relief_pieces(mesh, corners[inside], kept[inside])
+    elif inside.all():
+        pieces = smooth
+    else:  # edges that it shares with others are now its own
+        alone = _joints(corners[inside], kept[inside], mesh.face_normals)
+        pieces = alone.patches(crease, smooth[inside])
+    found[inside] = found.max() + 1 + pieces
+    return found, True, np.zeros(len(found), dtype=np.bool_)
+
+
+def _shells(
+    surface: _Surface, corners: IntArray, joints: _Joints, sheets: IntArray
+) -> tuple[IntArray, int | None]:
+    """(K,) labels of what hangs together, and the one that is several solids in one, if any."""
     found = touching(corners, sheets)
     spanning = surface.spanning(found)
     if spanning is not None:
@@ -162,19 +200,23 @@ def _pieces(
     else:  # what touches the largest and is closed is not of it
         body = found == np.bincount(found, surface.areas, 1).argmax()
         found = np.where(body & joints.closed(sheets), found.max(initial=-1) + 1 + sheets, found)
-    fused = surface.fused(found, spanning)
-    if fused is None:
-        return found, False
-    inside = found == fused
-    if relief and is_fine(mesh, kept[inside]):
-        pieces = relief_pieces(mesh, corners[inside], kept[inside])
-    elif inside.all():
-        pieces = smooth
-    else:  # edges that it shares with others are now its own
-        alone = _joints(corners[inside], kept[inside], mesh.face_normals)
-        pieces = alone.patches(crease, smooth[inside])
-    found[inside] = found.max() + 1 + pieces
-    return found, True
+    return found, surface.fused(found, spanning)
+
+
+def _pieces_of_skin(
+    surface: _Surface, corners: IntArray, found: IntArray, smooth: IntArray, crease: float, relief: bool
+) -> tuple[IntArray, bool, BoolArray]:
+    """As `_pieces`, of a skin that what is aside of it keeps from being told; of all else, as found."""
+    mesh, kept = surface.mesh, surface.face_ids
+    aside = aside_of_skin(mesh, kept, found, smooth)
+    rest = ~aside
+    if aside.any():
+        pieces, fused, _ = _pieces(mesh, corners[rest], kept[rest], crease, relief)
+        if fused:
+            found[rest] = pieces
+            found[aside] = pieces_before(mesh, kept[rest], pieces, kept[aside])
+            return found, True, aside
+    return found, False, np.zeros(len(found), dtype=np.bool_)
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,13 +233,20 @@ class _Surface:
     face_ids: IntArray
     areas: FloatArray
 
+    @cached_property
+    def bounds(self) -> FloatArray:
+        """(2, 3) lower and upper corner."""
+        if len(self.face_ids) == len(self.mesh.faces):
+            return self.mesh.bounds
+        return np.array(bounds_of(self.mesh.vertices[occurring(self.mesh.faces[self.face_ids])]))
+
     def spanning(self, labels: IntArray) -> int | None:
         """The one of (K,) labels with most surface, if it spans the object."""
         if not len(labels):
             return None
         largest = int(np.bincount(labels, self.areas).argmax())
         inside = np.flatnonzero(labels == largest)
-        whole = self.mesh.bounds[1] - self.mesh.bounds[0]
+        whole = np.ptp(self.bounds, axis=0)
         # Some of its faces often show that it does, in little time.
         for some in (inside[::_SOME], inside):
             used = np.zeros(len(self.mesh.vertices), dtype=np.bool_)

@@ -45,11 +45,12 @@ class _Pieces:
     def __init__(self, graph: SkinGraph, label: IntArray, facing: FloatArray) -> None:
         count = int(label.max()) + 1
         area = np.bincount(label, graph.areas, count)
-        sums = [np.bincount(label, graph.areas * column, count) for column in facing.T]
-        mean = np.stack(sums, axis=1) / area[:, None]
+        mean = _sums(label, graph.areas, facing, count) / area[:, None]
+        # Rims look aside: which way a piece looks is told by what looks much that way.
+        main = graph.areas * (np.einsum("vi,vi->v", facing, unit(mean)[label]) > _ALIKE)
         self.share = area / area.sum()
         self.flat = np.linalg.norm(mean, axis=1)
-        self._graph, self._normal = graph, unit(mean)
+        self._graph, self._normal = graph, unit(_sums(label, main, facing, count))
         self._border = graph.borders(label)
         self._order = np.argsort(label, kind="stable")
         self._starts = np.searchsorted(label[self._order], np.arange(count + 1))
@@ -86,6 +87,11 @@ class _Pieces:
     def _enclosed(self, panel: Sequence[int], frame: int) -> bool:
         own = self._border[panel].sum() - self._border[np.ix_(panel, panel)].sum()
         return bool(self._border[panel, frame].sum() > _INSIDE * own)
+
+
+def _sums(label: IntArray, weights: FloatArray, facing: FloatArray, count: int) -> FloatArray:
+    """(P, 3) sums of (V, 3) vectors by label, each times its weight."""
+    return np.stack([np.bincount(label, weights * column, count) for column in facing.T], axis=1)
 
 
 def _nearest(places: FloatArray, groups: Sequence[IntArray], wanted: IntArray) -> IntArray:

@@ -21,6 +21,7 @@ from .frames import with_frames_shared_out
 from .graph import SkinGraph, skin_graph, unit
 from .lobes import with_lobes_whole
 from .partings import with_fronts_parted
+from .refining import LONGEST, Refined, refined
 from .sides import ways, with_sides_parted
 
 # The most steps that the surroundings are wide.
@@ -48,19 +49,22 @@ def relief_pieces(mesh: Mesh, corners: IntArray, kept: IntArray) -> IntArray:
     used, faces = without_gaps(corners)
     places = np.zeros((len(used), 3))
     places[faces] = mesh.triangles[kept]
-    graph = skin_graph(places, faces, mesh.face_normals[kept], mesh.face_areas[kept])
+    fine = refined(places, faces, LONGEST * RADIUS * float(np.ptp(places, axis=0).max()))
+    faces, source = fine.faces, kept[fine.source]
+    areas = mesh.face_areas[source] * fine.shares
+    graph = skin_graph(fine.places, faces, mesh.face_normals[source], areas)
     facing = unit(graph.means(graph.normals, 2))
     height = _height(graph, facing)
     way = ways(facing @ straight_from_asset(mesh).T)
     boxy = graph.areas[way >= 0].sum() > _BOXY * graph.areas.sum()
-    seams = _seams(graph, _colors(mesh, faces, kept, len(used), graph.spacing))
+    seams = _seams(graph, _colors(mesh, fine, kept, graph.spacing))
     piece = _pieces(graph, height, (height > (_GROOVE if boxy else _FAINT)) | seams)
     if not boxy:
         piece = with_lobes_whole(graph, piece, height)
     piece = with_sides_parted(graph, piece, way, _LEAST)
     piece = with_frames_shared_out(graph, piece, facing)
     piece = with_fronts_parted(graph, with_faces_joined(graph, piece, facing, faces), facing)
-    return _of_faces(piece, faces)
+    return fine.on_sources(_of_faces(piece, faces), areas)
 
 
 def _pieces(graph: SkinGraph, height: FloatArray, barrier: BoolArray) -> IntArray:
@@ -97,16 +101,17 @@ def _seams(graph: SkinGraph, colors: FloatArray) -> BoolArray:
     return found
 
 
-def _colors(mesh: Mesh, faces: IntArray, kept: IntArray, count: int, width: float) -> FloatArray:
+def _colors(mesh: Mesh, fine: Refined, kept: IntArray, width: float) -> FloatArray:
     """(V, 3) sRGB 0..1 of the vertices, as a face of each shows it; textures are averaged over `width`."""
     from ..drawing.appearance import Appearance
 
-    at = np.zeros(count, dtype=np.int64)
-    at[faces.ravel()] = np.arange(faces.size)
+    at = np.zeros(len(fine.places), dtype=np.int64)
+    at[fine.faces.ravel()] = np.arange(fine.faces.size)
     face, side = np.divmod(at, 3)
     looks = Appearance(mesh if mesh.normals is not None else with_normals(mesh))
-    weights = np.eye(3, dtype=np.float32)[side]
-    linear = looks.colors(kept[face], weights, np.full(count, width, dtype=np.float32))[:, :3]
+    weights = fine.weights[face, side].astype(np.float32)
+    widths = np.full(len(at), width, dtype=np.float32)
+    linear = looks.colors(kept[fine.source[face]], weights, widths)[:, :3]
     return linear_to_srgb(linear.astype(np.float64))
 
 

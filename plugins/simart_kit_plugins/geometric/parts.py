@@ -9,6 +9,8 @@ import numpy as np
 from simart_kit import Note, PartGuess, Segmentation
 from simart_kit.arrays import frozen_ints
 from simart_kit.segments import Segments, find_segments
+from simart_kit.submesh import submesh
+from simart_kit.topology import without_gaps
 
 from .contact import Contacts
 from .controls import hand_controls
@@ -61,11 +63,14 @@ def parts_of(mesh: Mesh, spec: Spec | None, max_parts: int, crease: float, node_
     """
     segments = find_segments(mesh, crease, node_hint, relief=True)
     # Segments come largest first: what is beyond the most pieces counts as one, and stays with the body.
-    scene = make_scene(mesh, np.minimum(segments.face_segment, _MOST_PIECES))
+    piece = np.minimum(segments.face_segment, _MOST_PIECES)
+    seen = ~segments.aside
+    ids, shown = without_gaps(piece[seen])
+    scene = make_scene(mesh if seen.all() else submesh(mesh, seen), shown)
     movers = _find(scene, segments, spec)[:max_parts]
     face_part = np.zeros(len(mesh.faces), dtype=np.int32)
     for number, mover in enumerate(movers, start=1):
-        face_part[scene.faces_of(mover.pieces)] = number
+        face_part[np.isin(piece, ids[list(mover.pieces)])] = number
     guesses = [PartGuess("body", label="body")]
     for mover, name in zip(movers, names(scene, movers), strict=True):
         told = "; ".join(mover.evidence)

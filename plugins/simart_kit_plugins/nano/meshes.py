@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from simart_kit.arrays import FloatArray, IntArray
+from simart_kit.arrays import BoolArray, FloatArray, IntArray
 from simart_kit.drawing.appearance import Appearance
 from simart_kit.mesh import Mesh
 from simart_kit.normals import with_normals
@@ -55,7 +55,7 @@ def mesh_cloud(mesh: Mesh, segments: Segments, generator: np.random.Generator) -
     skin = segments.patches or segments.count == 1
     middles = None
     if skin:
-        cloud, face_piece, middles = _of_skin(mesh, center, size, generator)
+        cloud, face_piece, middles = _of_skin(mesh, segments.aside, center, size, generator)
     else:
         face_piece = _few(mesh, segments.face_segment)
         samples = sample_pieces(mesh.face_areas, face_piece, POINTS, generator)
@@ -64,10 +64,10 @@ def mesh_cloud(mesh: Mesh, segments: Segments, generator: np.random.Generator) -
 
 
 def _of_skin(
-    mesh: Mesh, center: FloatArray, size: float, generator: np.random.Generator
+    mesh: Mesh, aside: BoolArray, center: FloatArray, size: float, generator: np.random.Generator
 ) -> tuple[Cloud, IntArray, FloatArray]:
     """The cloud of a skin's patches, (F,) the patch of each face, that of its middle, and their middles."""
-    samples = sample_evenly(mesh.face_areas, _SKIN_POINTS, generator)
+    samples = sample_evenly(mesh.face_areas * ~aside, _SKIN_POINTS, generator)
     cloud = _cloud(mesh, samples, np.zeros(len(samples.face), dtype=np.int64), center, size)
     patch, middles = superfaces(cloud.points, cloud.normals, cloud.colors, SUPERFACES, generator)
     every = Samples(np.arange(len(mesh.faces)), np.full((len(mesh.faces), 3), 1 / 3), mesh.face_areas)

@@ -20,6 +20,7 @@ from .askew import seen_straight
 
 if TYPE_CHECKING:
     from simart_kit import Mesh
+    from simart_kit.segments import Segments
     from simart_kit.spec.values import Spec
 
     from .meshes import MeshCloud
@@ -94,7 +95,8 @@ class Nano(Segmenter):
 
         folder = Path(self.options.model) if self.options.model else shipped_folder()
         known = read_knowledge(folder)
-        seen = mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(self.seed))
+        segments = find_segments(mesh)
+        seen = mesh_cloud(mesh, segments, np.random.default_rng(self.seed))
         # With a spec, a skin is cut by what the network says of its patches; else geometry finds more on it.
         asked = self.options.pool and not (seen.skin and spec is not None)
         saying = beside.ask(said_by, folder, seen.cloud, self.options.votes)
@@ -126,7 +128,10 @@ class Nano(Segmenter):
             found = replace(found, face_segment=find_segments(mesh, relief=True).face_segment)
         return replace(
             found,
-            notes=_notes(said, seen, 0.0 if moves else still, bar, len(found.parts) - 1),
+            notes=(
+                *_notes(said, seen, 0.0 if moves else still, bar, len(found.parts) - 1),
+                *_aside(segments),
+            ),
             evidence=shown,
         )
 
@@ -217,6 +222,11 @@ def _notes(said: Prediction, seen: MeshCloud, still: float, bar: float, parts: i
         *(Note("segment", "info", _doubt(part)) for part in said.doubtful),
         *([Note("segment", "warning", _SKIN)] if seen.skin else []),
     )
+
+
+def _aside(segments: Segments) -> tuple[Note, ...]:
+    told = segments.told_aside
+    return (Note("segment", "info", told),) if told else ()
 
 
 def _trust(said: Prediction, bar: float) -> str:
