@@ -176,7 +176,7 @@ def _pieces(
     if fused is None:
         return _pieces_of_skin(surface, corners, found, smooth, crease, relief)
     inside = found == fused
-    if relief and (is_fine(mesh, kept[inside]) or is_rough(smooth[inside])):
+    if relief and (is_fine(mesh, kept[inside]) or is_rough(mesh, kept[inside], smooth[inside])):
         pieces = relief_pieces(mesh, corners[inside], kept[inside])
     elif inside.all():
         pieces = smooth
@@ -211,10 +211,11 @@ def _pieces_of_skin(
     aside = aside_of_skin(mesh, kept, found, smooth)
     rest = ~aside
     if aside.any():
-        pieces, fused, _ = _pieces(mesh, corners[rest], kept[rest], crease, relief)
+        pieces, fused, more = _pieces(mesh, corners[rest], kept[rest], crease, relief)
         if fused:
             found[rest] = pieces
             found[aside] = pieces_before(mesh, kept[rest], pieces, kept[aside])
+            aside[rest] = more
             return found, True, aside
     return found, False, np.zeros(len(found), dtype=np.bool_)
 

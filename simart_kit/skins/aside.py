@@ -38,7 +38,7 @@ def aside_of_skin(mesh: Mesh, kept: IntArray, label: IntArray, patch: IntArray) 
     skin = label == shells[0]
     aside = np.zeros(len(areas), dtype=np.bool_)
     many = len(areas) > 1 and areas[shells[0]] > _MAIN * areas.sum()
-    if not many or not (is_fine(mesh, kept[skin]) or is_rough(patch[skin])):
+    if not many or not (is_fine(mesh, kept[skin]) or is_rough(mesh, kept[skin], patch[skin])):
         return aside[label]
     aside[(areas > 0) & (areas < _STRAY * areas.sum())] = True
     rays, coarse = Rays(mesh.vertices, mesh.faces[kept[skin]]), coarseness(mesh, kept[skin])

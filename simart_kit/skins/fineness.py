@@ -11,6 +11,7 @@ RADIUS = 0.022  # of the surroundings that relief goes by, as a share of the lon
 _SHELLS = 12  # a skin has so many at most
 # So many patches, most of them of few faces, tell the noise of a decimated one.
 _PATCHES, _CRUMB, _CRUMBS = 64, 4, 0.6
+_LARGE = 5.0  # times the middle one, one in a thousand of its triangles
 _UNEVEN = 1.25  # so many times as coarse one of them is as another at most
 
 
@@ -26,11 +27,17 @@ def is_fine(mesh: Mesh, kept: IntArray) -> bool:
     return coarseness(mesh, kept) < 1
 
 
-def is_rough(patch: IntArray) -> bool:
-    """Whether most of (K,) patches that creases bound are crumbs, as on a rough skin of fewer faces."""
+def is_rough(mesh: Mesh, kept: IntArray, patch: IntArray) -> bool:
+    """Whether most of (K,) patches that creases bound are crumbs, and flat places of larger triangles.
+
+    A decimated skin is like that, and no noise on triangles of a size.
+    """
     size = np.bincount(patch)
     size = size[size > 0]
-    return len(size) > _PATCHES and float((size < _CRUMB).mean()) > _CRUMBS
+    if len(size) <= _PATCHES or float((size < _CRUMB).mean()) <= _CRUMBS:
+        return False
+    middle, large = np.quantile(mesh.face_areas[kept], [0.5, 0.999])
+    return bool(large > _LARGE * middle)
 
 
 def are_shells(mesh: Mesh, kept: IntArray, label: IntArray) -> bool:
