@@ -62,11 +62,8 @@ class Segments:
     def told_aside(self) -> str:
         """What is aside of a skin, in words for the report; "" where nothing is."""
         count = int(self.aside.sum())
-        return (
-            f"{count} faces of inner sides of walls and of strays go with what is next to them"
-            if count
-            else ""
-        )
+        told = f"{count} faces of inner sides of walls and of strays go with what is next to them"
+        return told if count else ""
 
 
 def find_segments(
@@ -145,6 +142,7 @@ def _cut(mesh: Mesh, of: _Faces, crease: float, node_hint: bool, relief: bool) -
     labels[of.duplicate] = labels[of.first[of.duplicate]]
     beside = np.zeros(len(keys), dtype=np.bool_)
     beside[looked_at[aside]] = True
+    beside[of.duplicate] = beside[of.first[of.duplicate]]
     return Segments(
         frozen_ints(labels),
         of.vertex,

@@ -137,6 +137,11 @@ class TestTwoSidedWalls:
         assert not outer.any()
         assert inner.all()
 
+    def test_inner_faces_that_stand_twice_are_told_too(self) -> None:
+        inner = len(self.mesh.faces) // 2
+        twice = Mesh(self.mesh.vertices, np.concatenate([self.mesh.faces, self.mesh.faces[inner:, ::-1]]))
+        assert find_segments(twice).aside[inner:].all()
+
     def test_what_is_far_from_all_walls_goes_with_none(self) -> None:
         core = skin([((0, 0, 0), (12, 2, 12))])
         block = skin([((0, 0, 0), (60, 60, 60))])
