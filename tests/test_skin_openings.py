@@ -141,6 +141,36 @@ def test_panes_side_by_side_in_two_tracks_slide_and_of_two_above_one_another_the
     assert (lower.label, set(lower.pieces)) == ("sash", {1, 2, 3})
 
 
+def levered(skin: Skin, x: float, piece: int, behind: int) -> None:
+    """A lever before a leaf, and one behind it."""
+    for y, number in (((-0.06, 0.0), piece), ((0.04, 0.1), behind)):
+        skin.add(((x, y[0], 0.46), (x + 0.1, y[1], 0.54)), number, number, number)
+
+
+def fronts_of(skin: Skin) -> list[Mover]:
+    scene = skin.scene()
+    return front_movers(scene, Contacts(scene), fused=True)
+
+
+def test_a_leaf_that_fills_its_frame_opens_and_not_both() -> None:
+    skin = Skin()
+    for bar in bars((0, 0), (0.8, 1.6), (0.0, 0.04), 0.1):
+        skin.add(bar, 1, 1, 1)
+    skin.add(((0.1, 0.0, 0.1), (0.7, 0.04, 1.5)), 0, 0, -1)
+    levered(skin, 0.58, 2, 3)
+    (door,) = fronts_of(skin)
+    assert (door.label, set(door.pieces)) == ("door", {0, 2, 3})
+
+
+def test_a_lever_behind_a_leaf_goes_with_it_though_it_touches_the_next_one() -> None:
+    skin = Skin()
+    skin.add(((0, 0, 0), (0.8, 0.04, 1.6)), 0, 0, 0)
+    skin.add(((0.8, 0, 0), (1.6, 0.04, 1.6)), 1, 1, 1)
+    levered(skin, 0.8, 2, 3)
+    leaves = {mover.pieces[0]: set(mover.pieces) for mover in fronts_of(skin)}
+    assert leaves[1] == {1, 2, 3}
+
+
 def test_what_lies_in_two_leaves_goes_with_one() -> None:
     skin = jambs()
     pane(skin, (0.04, 0.42), (0.04, 0.96), 0.02, 1)

@@ -15,6 +15,7 @@ from simart_kit.loading import read_source
 from simart_kit.mesh import Mesh
 from simart_kit.plugins import Plugins
 from simart_kit.segments import Segments, find_segments
+from simart_kit.skins.graph import skin_graph
 
 from .real_objects import DATA, needs_data
 
@@ -92,10 +93,34 @@ class TestSeams:
         segments = find_segments(mesh, relief=True)
         assert at(mesh, segments, (30, 0, 40)) != at(mesh, segments, (30, 0, 90))
 
+    def test_speckles_all_over_part_nothing_and_hide_no_seam(self) -> None:
+        mesh = self.colored(np.array([[10, -1, 20], [50, 1, 60]]))
+        assert mesh.colors is not None
+        colors = mesh.colors.copy()
+        colors[np.random.default_rng(0).random(len(colors)) < 0.14, :3] = 160
+        segments = find_segments(Mesh(mesh.vertices, mesh.faces, colors=colors), relief=True)
+        assert segments.count == find_segments(mesh, relief=True).count
+        assert at(mesh, segments, (30, 0, 40)) != at(mesh, segments, (30, 0, 90))
+
     def test_a_stain_is_none(self) -> None:
         mesh = self.colored(np.array([[30, -1, 40], [33, 1, 43]]))
         segments = find_segments(mesh, relief=True)
         assert at(mesh, segments, (31, 0, 41)) == at(mesh, segments, (30, 0, 90))
+
+
+def test_medians_take_lone_values_and_leave_borders() -> None:
+    mesh = skin([((0, 0, 0), (20, 20, 20))])
+    graph = skin_graph(mesh.vertices, mesh.faces, mesh.face_normals, mesh.face_areas)
+    right = mesh.vertices[:, 0] > 0.15
+    values = np.column_stack([right, ~right]).astype(np.float64)
+    lone = np.array([3, 700, 1500])
+    speckled = values.copy()
+    speckled[lone] = 1 - values[lone]
+    beside_border = np.zeros(len(right), dtype=np.bool_)
+    beside_border[graph.edges[right[graph.edges[:, 0]] != right[graph.edges[:, 1]]]] = True
+    found = graph.medians(speckled)
+    np.testing.assert_array_equal(found[~beside_border], values[~beside_border])
+    assert (found[:, 0] != values[:, 0]).mean() < 0.1 * beside_border.mean()
 
 
 def where_in(mesh: Mesh, box: FloatArray) -> BoolArray:
@@ -179,3 +204,14 @@ def test_both_doors_of_a_real_skin_are_found() -> None:
         shared = mesh.face_areas[own & (truth == owner)].sum() / mesh.face_areas[own | (truth == owner)].sum()
         assert owner > 0
         assert shared > 0.8
+
+
+@needs_data
+def test_the_leaf_of_a_real_skin_with_speckled_colours_is_one_piece_and_opens() -> None:
+    """Between its surfaces, which nearly coincide, the baked colours change from vertex to vertex."""
+    mesh = read_source(DATA / "gz_hinged_door" / "fused.glb", Plugins()).mesh
+    found = Geometric(seed=0).segment(mesh)
+    assert [part.label for part in found.parts] == ["body", "door"]
+    truth = np.load(DATA / "gz_hinged_door" / "fused.npz")["face_part"] > 0
+    own, areas = found.face_part == 1, mesh.face_areas
+    assert areas[own & truth].sum() > 0.9 * areas[own | truth].sum()

@@ -59,6 +59,16 @@ class SkinGraph:
             values = self._step @ values
         return values
 
+    def medians(self, values: FloatArray) -> FloatArray:
+        """(V, K) medians of (V, K) values over each vertex and those beside it, column by column."""
+        a, b = self.edges.T
+        every = np.arange(len(values))
+        row, column = np.concatenate([a, b, every]), np.concatenate([b, a, every])
+        count = np.bincount(row, minlength=len(values))
+        middle = np.cumsum(count) - count + count // 2
+        ordered = [column[np.lexsort((one[column], row))[middle]] for one in values.T]
+        return np.stack([one[at] for one, at in zip(values.T, ordered, strict=True)], axis=1)
+
     def pieces(self, barrier: BoolArray) -> IntArray:
         """(V,) labels 0.. of what hangs together without (V,) barriers; each of these is alone."""
         a, b = self.edges.T

@@ -33,6 +33,7 @@ _FAINT, _BOXY = 0.02, 0.6
 # Least difference of neighbouring vertices at a seam, of 0..1; a piece that seams bound is no smaller than
 # this share of the surface, for stains are none.
 _SEAM, _LEAST_COLORED = 0.12, 0.006
+_SPECKLED = 0.05  # share of vertices of another colour than those around them from which on they are noise
 _LEAST = 0.0006  # share of the surface that a piece has at least
 _BIG = 0.1  # share from which on a piece is cut at its sharp edges too
 _NARROW = 0.013  # width, in longest sides, below which a piece is but the wall of a step
@@ -57,7 +58,7 @@ def relief_pieces(mesh: Mesh, corners: IntArray, kept: IntArray) -> IntArray:
     height = _height(graph, facing)
     way = ways(facing @ straight_from_asset(mesh).T)
     boxy = graph.areas[way >= 0].sum() > _BOXY * graph.areas.sum()
-    seams = _seams(graph, _colors(mesh, fine, kept, graph.spacing))
+    seams = _seams(graph, _without_speckles(graph, _colors(mesh, fine, kept, graph.spacing)))
     piece = _pieces(graph, height, (height > (_GROOVE if boxy else _FAINT)) | seams)
     if not boxy:
         piece = with_lobes_whole(graph, piece, height)
@@ -99,6 +100,13 @@ def _seams(graph: SkinGraph, colors: FloatArray) -> BoolArray:
     found = np.zeros(len(colors), dtype=np.bool_)
     found[graph.edges[region[a] != region[b]]] = True
     return found
+
+
+def _without_speckles(graph: SkinGraph, colors: FloatArray) -> FloatArray:
+    """(V, 3) colours; where many vertices differ from those around them, none does."""
+    middle = graph.medians(colors)
+    speckles = np.abs(colors - middle).max(axis=1) > _SEAM
+    return middle if speckles.mean() > _SPECKLED else colors
 
 
 def _colors(mesh: Mesh, fine: Refined, kept: IntArray, width: float) -> FloatArray:

@@ -111,12 +111,18 @@ def find_fronts(scene: Scene, contacts: Contacts, facing: str, fused: bool = Fal
             continue
         # Seen through an opening, it is a back wall, which has no handle.
         if not inner or _grips(contacts, boxes, piece, inlays):
-            found.append(_front(scene, contacts, facing, boxes, piece, inlays))
+            found.append(_front(scene, contacts, facing, boxes, piece, inlays, fused))
     return found
 
 
 def _front(
-    scene: Scene, contacts: Contacts, facing: str, boxes: list[Box], piece: int, inlays: tuple[int, ...]
+    scene: Scene,
+    contacts: Contacts,
+    facing: str,
+    boxes: list[Box],
+    piece: int,
+    inlays: tuple[int, ...],
+    fused: bool,
 ) -> Front:
     axes, box = FACINGS[facing], boxes[piece]
     handles = _handles(contacts, boxes, piece, inlays)
@@ -137,7 +143,10 @@ def _front(
     )
     if backed < OPEN and not boxed:  # what stands free is taken hold of from both sides
         around = [one.turned(_AROUND) for one in boxes]
-        handles = tuple(dict.fromkeys((*handles, *_grips(contacts, around, piece, inlays))))
+        other = _grips(contacts, around, piece, inlays)
+        if fused:  # there, one that reaches the edge of its leaf touches what is beside it
+            other = (*other, *_opposite(boxes, handles, _handles(contacts, around, piece, inlays)))
+        handles = tuple(dict.fromkeys((*handles, *other)))
     beside = _beside(scene, axes, box, own)
     return Front(
         piece,
@@ -285,6 +294,16 @@ def _grips(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int, 
         return ()
     others = [i for i in range(len(boxes)) if i not in (piece, *inlays, *handles)]
     return tuple(i for i in handles if not any(contacts.within(i, j, HOLDS) for j in others))
+
+
+def _opposite(boxes: list[Box], handles: tuple[int, ...], others: tuple[int, ...]) -> list[int]:
+    """Those of other pieces (u, v, w) whose middle is behind one of the handles."""
+    return [i for i in others if any(_holds(boxes[handle], boxes[i].center) for handle in handles)]
+
+
+def _holds(box: Box, point: FloatArray) -> bool:
+    """Whether a point is in the rectangle of a box."""
+    return bool(((point > box.lower) & (point < box.upper))[:2].all())
 
 
 def _separate(contacts: Contacts, boxes: list[Box], handles: tuple[int, ...]) -> int:

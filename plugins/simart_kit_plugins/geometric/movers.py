@@ -26,6 +26,7 @@ TALL = 0.8  # share of the object's height above which a leaf is for passing thr
 MOST = 0.4  # share of its side that the leaf in a doorway takes
 _LEAF = 0.3  # share of its side that a leaf takes which passes before the body, and not within a frame
 _ALL = 0.99  # share of its side from which on a front leaves nothing else of it
+_REST = 0.98  # share of the whole surface from which on pieces leave nothing that could hold them
 _SHEET = 1e-4  # what is thinner has no back of its own
 _MOST_OPEN = 0.5  # share of its side that a drawer which stands open takes: larger boxes hold the rest
 _SMALL = 0.15  # share of its side that a drawer takes which has neither a back behind it nor walls all around
@@ -86,7 +87,7 @@ def front_movers(scene: Scene, contacts: Contacts, fused: bool) -> list[Mover]:
         bare = [*leaves(scene, able), *parted_side(scene, fronts), *gripped(scene, every)]
         scored += [(_BARE, front) for front in bare if front.piece not in told]
         scored += [(_PORTHOLE, front) for front in portholes(scene, every) if front.piece not in told]
-    scored = _without_skins(_layered(scored))
+    scored = _without_skins(_layered(_within_frames(scene, scored)))
     known = {piece for _, front in scored for piece in front.pieces}
     scored += [(_TWIN, front) for front in in_rows[main] if front.piece not in known]
     scored += [(_TWIN, front) for front in twins(scene, [front for _, front in scored], able)]
@@ -149,6 +150,17 @@ def _without_skins(scored: Sequence[tuple[float, Front]]) -> list[tuple[float, F
         if piece == other.piece and other.area > 0.9 * front.area and front.piece not in other.inlays
     }
     return [(score, front) for score, front in scored if front.piece not in skins]
+
+
+def _within_frames(scene: Scene, scored: Sequence[tuple[float, Front]]) -> list[tuple[float, Front]]:
+    """Without those that leave nothing that could hold them, where others lie in them: these do."""
+    inner = {front.piece for _, front in scored}
+    whole = _REST * scene.areas.sum()
+    return [
+        (score, front)
+        for score, front in scored
+        if scene.areas[list(front.pieces)].sum() < whole or not inner.intersection(front.inlays)
+    ]
 
 
 def _apart(scored: Sequence[tuple[float, Front]], taken: set[int], labels: Mapping[int, str]) -> list[Mover]:
