@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -24,6 +25,8 @@ CREASE_ANGLE = np.deg2rad(25.0)
 # spans the object and holds nearly all of its surface.
 _SPANNING, _FUSED_AREA = 0.95, 0.85
 _MAIN_AREA = 0.9  # the same of a skin that does not span all because of stray shells, as fine as it is
+# How a fused component is cut; "" where there is none.
+_Cut: TypeAlias = Literal["", "creases", "relief"]
 _SOME = 32  # each so many faces are a first look at how far they extend
 
 
@@ -37,7 +40,8 @@ class Segments:
         count: number of segments.
         duplicates: faces that repeat an earlier one; they share its segment.
         degenerates: faces without area; they join nothing, and share the largest segment that they touch.
-        patches: whether a fused component was cut at its creases.
+        patches: whether a fused component was cut, at its creases or by relief.
+        relief: whether it was by relief.
         aside: (F,) which faces are of shells that tell nothing of a skin, as the inner sides of its walls and
             strays are; each is of the segment next to it.
     """
@@ -48,6 +52,7 @@ class Segments:
     duplicates: int
     degenerates: int
     patches: bool
+    relief: bool
     aside: BoolArray
 
     def describe(self) -> str:
@@ -135,7 +140,7 @@ def _cut(mesh: Mesh, of: _Faces, crease: float, node_hint: bool, relief: bool) -
     keys = of.corners
     if node_hint and mesh.face_node is not None:
         keys = keys + int(keys.max() + 1) * mesh.face_node[:, None]
-    found, fused, aside = _pieces(mesh, keys.take(looked_at, axis=0), looked_at, crease, relief)
+    found, cut, aside = _pieces(mesh, keys.take(looked_at, axis=0), looked_at, crease, relief)
     labels = np.zeros(len(keys), dtype=np.int64)
     labels[looked_at] = _by_area(found, mesh.face_areas.take(looked_at))
     labels[of.degenerate] = _largest_beside(labels, of.corners, of.degenerate, looked_at)
@@ -149,15 +154,16 @@ def _cut(mesh: Mesh, of: _Faces, crease: float, node_hint: bool, relief: bool) -
         int(labels.max()) + 1,
         int(of.duplicate.sum()),
         int(of.degenerate.sum()),
-        fused,
+        cut != "",
+        cut == "relief",
         frozen_bools(beside),
     )
 
 
 def _pieces(
     mesh: Mesh, corners: IntArray, kept: IntArray, crease: float, relief: bool
-) -> tuple[IntArray, bool, BoolArray]:
-    """(K,) labels of the `kept` faces, whether a fused component was cut, and (K,) what is aside of it.
+) -> tuple[IntArray, _Cut, BoolArray]:
+    """(K,) labels of the `kept` faces, how a fused component was cut, and (K,) what is aside of it.
 
     Args:
         mesh: the faces' mesh.
@@ -174,15 +180,16 @@ def _pieces(
     if fused is None:
         return _pieces_of_skin(surface, corners, found, smooth, crease, relief)
     inside = found == fused
+    cut: _Cut = "creases"
     if relief and (is_fine(mesh, kept[inside]) or is_rough(mesh, kept[inside], smooth[inside])):
-        pieces = relief_pieces(mesh, corners[inside], kept[inside])
+        pieces, cut = relief_pieces(mesh, corners[inside], kept[inside]), "relief"
     elif inside.all():
         pieces = smooth
     else:  # edges that it shares with others are now its own
         alone = _joints(corners[inside], kept[inside], mesh.face_normals)
         pieces = alone.patches(crease, smooth[inside])
     found[inside] = found.max() + 1 + pieces
-    return found, True, np.zeros(len(found), dtype=np.bool_)
+    return found, cut, np.zeros(len(found), dtype=np.bool_)
 
 
 def _shells(
@@ -203,19 +210,19 @@ def _shells(
 
 def _pieces_of_skin(
     surface: _Surface, corners: IntArray, found: IntArray, smooth: IntArray, crease: float, relief: bool
-) -> tuple[IntArray, bool, BoolArray]:
+) -> tuple[IntArray, _Cut, BoolArray]:
     """As `_pieces`, of a skin that what is aside of it keeps from being told; of all else, as found."""
     mesh, kept = surface.mesh, surface.face_ids
     aside = aside_of_skin(mesh, kept, found, smooth)
     rest = ~aside
     if aside.any():
-        pieces, fused, more = _pieces(mesh, corners[rest], kept[rest], crease, relief)
-        if fused:
+        pieces, cut, more = _pieces(mesh, corners[rest], kept[rest], crease, relief)
+        if cut:
             found[rest] = pieces
             found[aside] = pieces_before(mesh, kept[rest], pieces, kept[aside])
             aside[rest] = more
-            return found, True, aside
-    return found, False, np.zeros(len(found), dtype=np.bool_)
+            return found, cut, aside
+    return found, "", np.zeros(len(found), dtype=np.bool_)
 
 
 @dataclass(frozen=True, eq=False)

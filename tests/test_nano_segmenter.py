@@ -1,5 +1,6 @@
 """From a mesh to parts and joints: grouping, sampling, a network's words as joints, and its weights."""
 
+import shutil
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +17,7 @@ from simart_kit_plugins.nano.network import NanoNetwork
 from simart_kit_plugins.nano.proposals import of_geometry
 from simart_kit_plugins.nano.reading import PartsRead, PiecesRead
 from simart_kit_plugins.nano.segmenter import Nano
+from simart_kit_plugins.nano.stored_model import SKINS, shipped_folder
 from simart_kit_plugins.nano.trusting import enough
 from simart_kit_plugins.nano.truth import KINDS
 from simart_kit_plugins.nano.weights import load_model, save_network
@@ -293,12 +295,14 @@ def test_parts_that_are_not_sure_enough_stay_with_the_body_and_are_told(monkeypa
     assert all(text.startswith("a door that the network took for revolute") for text in told)
 
 
-@pytest.mark.parametrize("pool", [True, False])
-def test_a_recording_of_a_skin_shows_the_pieces_that_geometry_found_its_parts_by(pool):
-    mesh = skin(SLAB)
-    found = Nano(read_options(Nano, {"pool": pool})).segment(mesh)
+@pytest.mark.parametrize(("of_skins", "pool"), [(True, False), (False, True), (False, False)])
+def test_a_recording_of_a_skin_shows_the_pieces_that_its_parts_were_found_by(tmp_path, of_skins, pool):
+    """Those of relief, unless a network that knows no other looks at patches, and geometry at nothing."""
+    mesh, folder = skin(SLAB), tmp_path / "model"
+    shutil.copytree(shipped_folder(), folder, ignore=None if of_skins else shutil.ignore_patterns(SKINS))
+    found = Nano(read_options(Nano, {"model": str(folder), "pool": pool})).segment(mesh)
     by_relief = find_segments(mesh, relief=True).face_segment
-    assert np.array_equal(found.face_segment, by_relief) == pool
+    assert np.array_equal(found.face_segment, by_relief) == (of_skins or pool)
 
 
 @pytest.mark.parametrize(

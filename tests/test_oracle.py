@@ -170,7 +170,8 @@ class Knowing:
 
 def test_a_network_is_asked_for_the_joints_of_true_parts_and_then_for_everything(tmp_path, monkeypatch):
     monkeypatch.setattr(asking, "predict_groups", lambda _, __, found: tuple(map(slide_of, found)))
-    monkeypatch.setattr(asking, "load_model", lambda _: asking.Model(ArrayNetwork(TINY, {}), Knowing()))
+    nothing = ArrayNetwork(TINY, {})
+    monkeypatch.setattr(asking, "load_model", lambda _: asking.Model(nothing, nothing, Knowing()))
     (one,) = climbed(written(tmp_path, wardrobe()), model=tmp_path)
     grouping, whole = one.steps[GROUPING], one.steps[WHOLE]
     # The door is said to slide, along the drawer's way.

@@ -73,14 +73,31 @@ def example(made: GeneratedObject, generator: np.random.Generator, skin_share: f
         generator: of the choices.
         skin_share: how often the object is one skin.
     """
-    corners = np.concatenate([body.triangles for body in made.bodies]).reshape(-1, 3)
-    size = float(np.ptp(corners, axis=0).max())
-    seen = placed(plain(made, generator) if generator.random() < _PLAIN else made, generator)
+    seen, size = seen_somehow(made, generator)
     cloud, label = _cloud(seen, generator, skin_share)
     part = majority(label, cloud.piece, cloud.area, len(made.bodies), cloud.count)
-    shown = np.bincount(part, minlength=len(made.bodies)) > 0
+    return example_of(seen, cloud, part, size)
+
+
+def seen_somehow(made: GeneratedObject, generator: np.random.Generator) -> tuple[GeneratedObject, float]:
+    """The object in some pose and at a size of 1, some made plain; and how long it is [m]."""
+    corners = np.concatenate([body.triangles for body in made.bodies]).reshape(-1, 3)
+    size = float(np.ptp(corners, axis=0).max())
+    return placed(plain(made, generator) if generator.random() < _PLAIN else made, generator), size
+
+
+def example_of(seen: GeneratedObject, cloud: Cloud, part: IntArray, size: float) -> Example:
+    """The example that a cloud of a placed object is.
+
+    Args:
+        seen: the object.
+        cloud: of it, in its frame.
+        part: (S,) body of each piece.
+        size: longest side [m].
+    """
+    shown = np.bincount(part, minlength=len(seen.bodies)) > 0
     parts = [_part(seen, number, cloud, part) if shown[number] else None for number in range(1, len(shown))]
-    return Example(cloud, pieces_of(cloud), part, shown, tuple(parts), made.category, size)
+    return Example(cloud, pieces_of(cloud), part, shown, tuple(parts), seen.category, size)
 
 
 def _cloud(

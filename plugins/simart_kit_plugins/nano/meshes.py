@@ -30,8 +30,9 @@ class MeshCloud:
         face_piece: (F,) the piece that each face is of.
         center: (3,) of the mesh's bounding box [m].
         size: its longest side [m].
-        skin: whether the pieces are patches of a skin, and not solids that lie apart.
-        middles: (K, 9) of a skin's patches, for `nearest_superface`; else None.
+        skin: whether it is one skin, and no solids that lie apart.
+        middles: (K, 9) of the patches that a skin is cut into, for `nearest_superface`; None where it is cut
+            by relief, and for solids.
     """
 
     cloud: Cloud
@@ -41,9 +42,14 @@ class MeshCloud:
     skin: bool
     middles: FloatArray | None
 
+    @property
+    def relief(self) -> bool:
+        """Whether the pieces are those of a skin that is cut by relief."""
+        return self.skin and self.middles is None
+
 
 def mesh_cloud(mesh: Mesh, segments: Segments, generator: np.random.Generator) -> MeshCloud:
-    """Sample a mesh: by its segments, or by patches where one skin holds it all.
+    """Sample a mesh: by its segments, or by patches where one skin holds it all that relief has not cut.
 
     Args:
         mesh: in the canonical frame.
@@ -54,12 +60,12 @@ def mesh_cloud(mesh: Mesh, segments: Segments, generator: np.random.Generator) -
     size = float(np.ptp(mesh.bounds, axis=0).max())
     skin = segments.patches or segments.count == 1
     middles = None
-    if skin:
+    if skin and not (segments.relief and segments.count > 1):
         cloud, face_piece, middles = _of_skin(mesh, segments.aside, center, size, generator)
     else:
-        face_piece = _few(mesh, segments.face_segment)
-        samples = sample_pieces(mesh.face_areas, face_piece, POINTS, generator)
-        cloud = _cloud(mesh, samples, face_piece[samples.face], center, size)
+        face_piece = few(mesh, segments.face_segment)
+        samples = sample_pieces(mesh.face_areas * ~segments.aside, face_piece, POINTS, generator)
+        cloud = cloud_of(mesh, samples, face_piece[samples.face], center, size)
     return MeshCloud(cloud, face_piece, center, size, skin, middles)
 
 
@@ -68,10 +74,10 @@ def _of_skin(
 ) -> tuple[Cloud, IntArray, FloatArray]:
     """The cloud of a skin's patches, (F,) the patch of each face, that of its middle, and their middles."""
     samples = sample_evenly(mesh.face_areas * ~aside, _SKIN_POINTS, generator)
-    cloud = _cloud(mesh, samples, np.zeros(len(samples.face), dtype=np.int64), center, size)
+    cloud = cloud_of(mesh, samples, np.zeros(len(samples.face), dtype=np.int64), center, size)
     patch, middles = superfaces(cloud.points, cloud.normals, cloud.colors, SUPERFACES, generator)
     every = Samples(np.arange(len(mesh.faces)), np.full((len(mesh.faces), 3), 1 / 3), mesh.face_areas)
-    faces = _cloud(mesh, every, np.zeros(len(mesh.faces), dtype=np.int64), center, size)
+    faces = cloud_of(mesh, every, np.zeros(len(mesh.faces), dtype=np.int64), center, size)
     face_piece = nearest_superface(middles, faces.points, faces.normals, faces.colors)
     thin = np.sort(generator.permutation(len(patch))[: len(patch) // 3])
     thin = np.union1d(thin, np.unique(patch, return_index=True)[1])
@@ -81,8 +87,8 @@ def _of_skin(
     return kept, face_piece, middles
 
 
-def _few(mesh: Mesh, segment: IntArray) -> IntArray:
-    """(F,) segments, those beyond the largest ones joined to the nearest of these."""
+def few(mesh: Mesh, segment: IntArray) -> IntArray:
+    """(F,) of (F,) segments, those beyond the largest ones joined to the nearest of these."""
     from scipy.spatial import cKDTree
 
     count = int(segment.max()) + 1
@@ -100,7 +106,16 @@ def _few(mesh: Mesh, segment: IntArray) -> IntArray:
     return np.asarray(joined[segment])
 
 
-def _cloud(mesh: Mesh, samples: Samples, piece: IntArray, center: FloatArray, size: float) -> Cloud:
+def cloud_of(mesh: Mesh, samples: Samples, piece: IntArray, center: FloatArray, size: float) -> Cloud:
+    """The cloud of places on a mesh.
+
+    Args:
+        mesh: in its colours.
+        samples: N places on its faces.
+        piece: (N,) that each is of, 0.. without gaps.
+        center: (3,) that becomes the origin [m].
+        size: that becomes 1 [m].
+    """
     places = np.einsum("nk,nkx->nx", samples.weights, mesh.triangles[samples.face])
     looks = Appearance(mesh if mesh.normals is not None else with_normals(mesh))
     footprint = np.sqrt(samples.area).astype(np.float32)

@@ -90,15 +90,17 @@ class Nano(Segmenter):
         from .proposals import of_geometry, with_body
         from .showing import evidence
         from .sliding_leaves import with_slides
-        from .stored_model import read_knowledge, shipped_folder
-        from .trusting import enough, settled, stands_still
+        from .stored_model import folder_of_skins, read_knowledge, shipped_folder
+        from .trusting import enough, enough_on_skin, settled, stands_still
 
         folder = Path(self.options.model) if self.options.model else shipped_folder()
-        known = read_knowledge(folder)
-        segments = find_segments(mesh)
+        of_skins = folder_of_skins(folder)
+        segments = find_segments(mesh, relief=spec is None and of_skins is not None)
         seen = mesh_cloud(mesh, segments, np.random.default_rng(self.seed))
         # With a spec, a skin is cut by what the network says of its patches; else geometry finds more on it.
         asked = self.options.pool and not (seen.skin and spec is not None)
+        folder = of_skins if seen.relief and of_skins else folder
+        known = read_knowledge(folder)
         saying = beside.ask(said_by, folder, seen.cloud, self.options.votes)
         at_once = asked and len(mesh.faces) <= _MANY
         geometry = of_geometry(mesh, self.seed) if at_once else []
@@ -110,12 +112,17 @@ class Nano(Segmenter):
             geometry = []
         elif asked and not at_once:
             geometry = of_geometry(mesh, self.seed)
-        bar = enough(said, self.options.least, seen.skin, alone=asked and moves and not geometry)
+        if seen.relief:
+            bar = enough_on_skin(said, self.options.least)
+        else:
+            bar = enough(said, self.options.least, seen.skin, alone=asked and moves and not geometry)
         if self.options.pool and moves and not seen.skin:
             said = with_slides(mesh, said, seen, self.options.least, doubtful=bar)
         said = settled(said, bar)
         fronts = with_body(mesh, geometry) if seen.skin else []
-        if fronts or not moves:
+        if seen.relief and moves:
+            found = _of_relief(mesh, said, seen, fronts, material)
+        elif fronts or not moves:
             found = _of_proposals(mesh, fronts, seen, material)
         elif seen.skin:
             found = _of_patches(mesh, said, seen, material, spec)
@@ -123,7 +130,7 @@ class Nano(Segmenter):
             found = self._of_pieces(mesh, said, seen, geometry, material, spec)
         assert found.face_segment is not None
         shown = evidence(found.mesh_of(mesh), found.face_segment, said, seen)
-        if seen.skin and asked and (fronts or len(found.parts) == 1):
+        if seen.skin and not seen.relief and asked and (fronts or len(found.parts) == 1):
             # What geometry looked at tells more of it than what the network read.
             found = replace(found, face_segment=find_segments(mesh, relief=True).face_segment)
         return replace(
@@ -172,6 +179,26 @@ class Nano(Segmenter):
         return found if spec is None else rejoined(mesh, found, kept, seen, spec)
 
 
+def _of_relief(
+    mesh: Mesh,
+    said: Prediction,
+    seen: MeshCloud,
+    geometry: Sequence[Proposal],
+    material: Callable[[str], str],
+) -> Segmentation:
+    """What is found on a skin that is cut by relief, by geometry if anything, unless the network knows it."""
+    from .pooling import pooled
+    from .proposals import of_network, with_body
+    from .trusting import leads_on_skin
+
+    proposals = of_network(said, said.piece_part[seen.face_piece], seen)
+    if leads_on_skin(said, proposals, geometry):
+        found = pooled(mesh, proposals, geometry)
+    else:
+        found = list(geometry) or proposals
+    return _of_proposals(mesh, with_body(mesh, found), seen, material)
+
+
 def _of_proposals(
     mesh: Mesh, proposals: Sequence[Proposal], seen: MeshCloud, material: Callable[[str], str]
 ) -> Segmentation:
@@ -207,7 +234,8 @@ def _of_patches(
 
 
 def _notes(said: Prediction, seen: MeshCloud, still: float, bar: float, parts: int) -> tuple[Note, ...]:
-    kind = "patches of one skin" if seen.skin else "pieces that lie apart"
+    of_skin = "pieces of one skin" if seen.relief else "patches of one skin"
+    kind = of_skin if seen.skin else "pieces that lie apart"
     known = said.category and f"taken for a {said.category} ({said.categories[said.category]:.2f})"
     what = known or "of no known kind"
     if still:
@@ -217,7 +245,7 @@ def _notes(said: Prediction, seen: MeshCloud, still: float, bar: float, parts: i
         Note(
             "segment", "info", f"{seen.cloud.count} {kind}; {what}, about {size:.2g} m (/ or x {factor:.2f})"
         ),
-        Note("segment", "info", _trust(said, bar)),
+        Note("segment", "info", _trust_on_skin(said, bar) if seen.relief else _trust(said, bar)),
         Note("segment", "info", f"{parts} moving parts"),
         *(Note("segment", "info", _doubt(part)) for part in said.doubtful),
         *([Note("segment", "warning", _SKIN)] if seen.skin else []),
@@ -233,6 +261,10 @@ def _trust(said: Prediction, bar: float) -> str:
     knows = "recognises it" if said.recognised else "does not recognise it"
     measured = f"discord {said.discord:.2g}, novelty {said.novelty:.2f}, unlikeness {said.unlikeness:.2f}"
     return f"the network {knows} ({measured}): {bar:.2f} sure is enough for its parts"
+
+
+def _trust_on_skin(said: Prediction, bar: float) -> str:
+    return f"read from all sides with a discord of {said.discord:.2g}: {bar:.2f} sure is enough for its parts"
 
 
 def _doubt(part: PredictedPart) -> str:

@@ -24,6 +24,8 @@ from .novelty import TokenStatistics
 from .weight_shapes import kind_shapes, statistic_shapes, weight_shapes
 
 CONFIG_FILE, WEIGHTS_FILE = "config.json", "model.safetensors"
+# In a model's folder, one more model: of skins that are cut by relief.
+SKINS = "skins"
 _AGAIN = "give a folder that `train nano` wrote, or copy it again"
 
 
@@ -56,6 +58,11 @@ class StoredModel:
     def network(self) -> ArrayNetwork:
         """What it says, without torch."""
         return ArrayNetwork(self.config, self.weights)
+
+
+def folder_of_skins(folder: Path) -> Path | None:
+    """The folder of the weights for pieces of closed skins, in that of a model that has them."""
+    return folder / SKINS if (folder / SKINS).is_dir() else None
 
 
 def shipped_folder() -> Path:

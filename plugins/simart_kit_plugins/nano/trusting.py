@@ -32,6 +32,10 @@ _STILL = 0.02
 # object and sees nothing move.
 _STATIC, _STATIC_IF_NOTHING_MOVES = 0.95, 0.7
 
+# Of a skin cut by relief: how much alike a network reads it that leads, and one that is heard where geometry
+# finds nothing; then a third of the sureness is enough.
+_LEADS_ON_SKIN, _HEARD_ON_SKIN, _THIRD = 0.004, 0.01, 1 / 3
+
 
 def stands_still(said: Prediction, still: float) -> bool:
     """Whether nothing of an object moves, whatever geometry finds on it.
@@ -65,6 +69,27 @@ def enough(said: Prediction, least: float, skin: bool, alone: bool) -> float:
     if alone and said.discord < float("inf") and said.novelty <= _STRANGE:
         return _ALONE * least
     return least
+
+
+def enough_on_skin(said: Prediction, least: float) -> float:
+    """How sure a part of a skin has to be that is cut by relief; all of 1 where the network is not heard.
+
+    Args:
+        said: with all parts that are worth a thought.
+        least: how sure a part has to be in any object.
+    """
+    return _THIRD * least if said.discord <= _HEARD_ON_SKIN else 1.0
+
+
+def leads_on_skin(said: Prediction, found: Sequence[Proposal], geometry: Sequence[Proposal]) -> bool:
+    """Whether what the network finds on a skin that is cut by relief comes before what geometry finds.
+
+    Args:
+        said: of the skin.
+        found: proposals by the network.
+        geometry: by geometry.
+    """
+    return said.discord <= _LEADS_ON_SKIN and len(geometry) < len(found)
 
 
 def settled(said: Prediction, least: float) -> Prediction:

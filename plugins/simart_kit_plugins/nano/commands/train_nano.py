@@ -26,6 +26,10 @@ Objects = Annotated[int | None, typer.Option(min=1, metavar="N", help="Made-up o
 Steps = Annotated[int | None, typer.Option(min=1, metavar="N", help="Steps of training.")]
 Batch = Annotated[int | None, typer.Option(min=1, metavar="N", help="Objects a step.")]
 SkinShare = Annotated[float | None, typer.Option(metavar="X", help="Share of objects that are one skin.")]
+ReliefShare = Annotated[
+    float | None,
+    typer.Option(metavar="X", help="Share of objects that are a closed skin, cut by relief: slow to make."),
+]
 HeldOut = Annotated[
     int | None,
     typer.Option(
@@ -77,6 +81,7 @@ def train_nano(
     held_out: HeldOut = None,
     of_each: OfEach = None,
     skin_share: SkinShare = None,
+    relief_share: ReliefShare = None,
     learning_rate: Rate = None,
     start: Start = None,
     start_share: StartShare = None,
@@ -104,6 +109,7 @@ def train_nano(
         "held_out": held_out,
         "of_each": of_each,
         "skin_share": skin_share,
+        "relief_share": relief_share,
         "learning_rate": learning_rate,
         "start": str(start) if start else None,
         "start_share": start_share,

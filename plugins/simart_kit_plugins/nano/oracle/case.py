@@ -75,7 +75,7 @@ class Case:
         return _of_faces(self.truth.name, self.mesh, self.seen, self.piece_link[self.seen.face_piece], links)
 
 
-def read_case(reader: TruthFormat, path: Path, variant: str, plugins: Plugins) -> Case:
+def read_case(reader: TruthFormat, path: Path, variant: str, plugins: Plugins, relief: bool = True) -> Case:
     """Read an object with its truth and cut its mesh into pieces.
 
     Args:
@@ -83,21 +83,24 @@ def read_case(reader: TruthFormat, path: Path, variant: str, plugins: Plugins) -
         path: for that reader.
         variant: which mesh of the object.
         plugins: who reads meshes.
+        relief: whether a finely meshed skin is cut by relief.
 
     Raises:
         BadInputError: the truth or the mesh cannot be read, or it is points and no surface.
     """
     truth = reader.read(path, variant)
     if truth.mesh is not None:
-        return _case(truth, truth.mesh, plugins)
+        return _case(truth, truth.mesh, plugins, relief)
     with TemporaryDirectory() as folder:  # of an object in pieces, as `bench run` does
         write_case(truth, Path(folder))
-        return _case(SimartBench().read(Path(folder)), Path(folder) / f"{DEFAULT_VARIANT}.glb", plugins)
+        surface = Path(folder) / f"{DEFAULT_VARIANT}.glb"
+        return _case(SimartBench().read(Path(folder)), surface, plugins, relief)
 
 
-def _case(truth: Truth, path: Path, plugins: Plugins) -> Case:
+def _case(truth: Truth, path: Path, plugins: Plugins, relief: bool) -> Case:
     source = read_source(path, plugins, truth.up, truth.metres_per_unit)
-    seen = mesh_cloud(source.mesh, find_segments(source.mesh), np.random.default_rng(_SEED))
+    segments = find_segments(source.mesh, relief=relief)
+    seen = mesh_cloud(source.mesh, segments, np.random.default_rng(_SEED))
     known = truth.articulation.rigid().transformed(cloud_from_asset(seen) @ source.asset_from_source)
     pieces = tuple(Link(str(number)) for number in range(seen.cloud.count))
     laid = overlay(known, _of_faces(truth.name, source.mesh, seen, seen.face_piece, pieces))

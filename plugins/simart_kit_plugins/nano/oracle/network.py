@@ -17,7 +17,7 @@ from ..array_network import ArrayNetwork
 from ..grouping import Group
 from ..predicting import PredictedPart, predict_groups
 from ..segmenter import Nano
-from ..stored_model import read_model
+from ..stored_model import folder_of_skins, read_model
 from .case import Case, cloud_from_asset
 from .judging import Judged, judge
 
@@ -28,24 +28,29 @@ class Model:
 
     Attributes:
         network: that reads clouds.
+        of_skins: the same of skins that are cut by relief, if there is another for these.
         segmenter: `nano` with these weights, and otherwise as it is by default.
     """
 
     network: ArrayNetwork
+    of_skins: ArrayNetwork
     segmenter: Segmenter
 
 
 def load_model(folder: Path) -> Model:
     """Read a folder such as `train nano` writes; raises BadInputError where it is none."""
     network = read_model(folder).network
-    return Model(network, Nano(read_options(Nano, {"model": str(folder)})))
+    skins = folder_of_skins(folder)
+    of_skins = read_model(skins).network if skins else network
+    return Model(network, of_skins, Nano(read_options(Nano, {"model": str(folder)})))
 
 
 def grouping_step(case: Case, model: Model) -> Judged:
     """True pieces grouped as they should be, with the joints that the network chooses for them."""
     asked = case.groups()
     found = [Group(pieces, 1.0) for pieces in asked.values()]
-    said = predict_groups(model.network, case.seen.cloud, found)
+    network = model.of_skins if case.seen.relief else model.network
+    said = predict_groups(network, case.seen.cloud, found)
     joints = {link: _joint(part) for link, part in zip(asked, said, strict=True)}
     return judge(case.truth, case.with_joints(joints))
 

@@ -43,6 +43,9 @@ class TrainingPlan(Table):
         default=0.35, ge=0, le=1, description="Share of objects that are nothing in particular."
     )
     skin_share: float = Field(default=0.3, ge=0, le=1, description="Share of objects that are one skin.")
+    relief_share: float = Field(
+        default=0, ge=0, le=1, description="Share of objects that are a closed skin, cut by relief."
+    )
     seed: int = Field(default=0, ge=0, lt=2**31, description="Decides all that is random.")
     steps: int = Field(default=16_000, gt=0, description="Steps of training.")
     batch_size: int = Field(default=16, gt=0, description="Objects a step.")

@@ -17,6 +17,7 @@ from ..examples import example
 from ..generate.catalogue import CATEGORIES, NAMELESS
 from ..generate.category import Category
 from ..generate.posing import ajar
+from ..relief_examples import relief_example
 from ..store import Stored, load, save, stored
 from .plan import TrainingPlan
 
@@ -38,7 +39,8 @@ class Shard:
         names: categories that it draws from.
         static_share: how many of its objects do not move.
         nameless_share: how many are nothing in particular.
-        skin_share: how many are one skin.
+        skin_share: how many are one skin, as its solids show it.
+        relief_share: how many are a closed skin.
         seed: of the training.
         stream: what the objects are for.
         first, count: numbers of its objects.
@@ -49,6 +51,7 @@ class Shard:
     static_share: float
     nameless_share: float
     skin_share: float
+    relief_share: float
     seed: int
     stream: int
     first: int
@@ -77,6 +80,7 @@ def shards(plan: TrainingPlan, folder: Path, stream: int) -> list[Shard]:
             plan.static_share,
             plan.nameless_share,
             plan.skin_share,
+            plan.relief_share,
             plan.seed,
             stream,
             first,
@@ -129,6 +133,8 @@ def _object(shard: Shard, number: int) -> Stored:
     generator = np.random.default_rng(key)
     category = _drawn(shard, generator)
     made = ajar(category.make(Dice((*key, 1))), Dice((*key, 2)))
+    if shard.relief_share and generator.random() < shard.relief_share:
+        return stored(relief_example(made, generator))
     return stored(example(made, generator, shard.skin_share))
 
 

@@ -20,6 +20,7 @@ from ..kinds import kinds_of, place_of
 from ..meshes import mesh_cloud
 from ..network import NanoNetwork
 from ..novelty import Moments, TokenStatistics, gathered, moments_of, tokens_of
+from ..relief_examples import skin_mesh
 from ..voting import say
 from .plan import TrainingPlan
 from .pool import Progress, each
@@ -68,8 +69,11 @@ def _read(network: ArrayNetwork, plan: TrainingPlan, numbers: range) -> list[_Re
     names, read = plan.network.categories or NAMELESS, list[_Read]()
     for number in numbers:
         turn, kind = divmod(number, len(names))
-        mesh = _mesh(generated(named(names[kind], CATEGORIES), plan.seed, turn))
-        cloud = mesh_cloud(mesh, find_segments(mesh), np.random.default_rng(number)).cloud
+        made = generated(named(names[kind], CATEGORIES), plan.seed, turn)
+        generator = np.random.default_rng(number)
+        skin = plan.relief_share > 0 and generator.random() < plan.relief_share
+        mesh = skin_mesh(made, generator) if skin else _mesh(made)
+        cloud = mesh_cloud(mesh, find_segments(mesh, relief=skin), generator).cloud
         tokens = tokens_of(say(network, cloud))
         moments = moments_of(tokens) if number < plan.held_out else None
         read.append(_Read(kind, place_of(tokens), moments))
