@@ -264,7 +264,8 @@ def _trust(said: Prediction, bar: float) -> str:
 
 
 def _trust_on_skin(said: Prediction, bar: float) -> str:
-    return f"read from all sides with a discord of {said.discord:.2g}: {bar:.2f} sure is enough for its parts"
+    enough = f"{bar:.2f} sure is enough for its parts" if bar < 1 else "too much for the network to be heard"
+    return f"read from all sides with a discord of {said.discord:.2g}: {enough}"
 
 
 def _doubt(part: PredictedPart) -> str:
