@@ -21,13 +21,7 @@ from simart_kit_plugins.nano.proposals import of_geometry
 from simart_kit_plugins.nano.relief_examples import relief_example, relief_of, skin_mesh, surface_of
 from simart_kit_plugins.nano.segmenter import Nano
 from simart_kit_plugins.nano.store import load, save, stored
-from simart_kit_plugins.nano.stored_model import (
-    SKINS,
-    WEIGHTS_FILE,
-    folder_of_skins,
-    read_model,
-    shipped_folder,
-)
+from simart_kit_plugins.nano.stored_model import SKINS_FILE, read_model, reads_skins, shipped_folder
 from simart_kit_plugins.nano.training import pool
 from simart_kit_plugins.nano.training.plan import TrainingPlan
 from simart_kit_plugins.nano.trusting import enough_on_skin, leads_on_skin
@@ -132,26 +126,23 @@ class TestWeights:
     def copied(self, folder: Path) -> Path:
         return Path(shutil.copytree(shipped_folder(), folder))
 
-    def test_skins_have_their_own_that_know_the_same_things(self) -> None:
-        folder = folder_of_skins(shipped_folder())
-        assert folder is not None
-        solids, skins = read_model(shipped_folder()), read_model(folder)
-        assert solids.config == skins.config
-        assert solids.known == skins.known
+    def test_skins_have_their_own_of_the_same_network(self) -> None:
+        assert reads_skins(shipped_folder())
+        solids, skins = read_model(shipped_folder()), read_model(shipped_folder(), SKINS_FILE)
         assert any(not np.array_equal(solids.weights[name], skins.weights[name]) for name in skins.weights)
 
     def test_without_them_a_skin_is_read_by_patches(self, tmp_path: Path) -> None:
         folder = self.copied(tmp_path / "model")
-        shutil.rmtree(folder / SKINS)
-        assert folder_of_skins(folder) is None
+        (folder / SKINS_FILE).unlink()
+        assert not reads_skins(folder)
         for model, kind in ((folder, "patches of one skin"), (shipped_folder(), "pieces of one skin")):
             found = Nano(read_options(Nano, {"model": str(model)})).segment(skin(SLAB))
             assert any(kind in note.text for note in found.notes)
 
     def test_damaged_ones_are_refused(self, tmp_path: Path) -> None:
         folder = self.copied(tmp_path / "model")
-        (folder / SKINS / WEIGHTS_FILE).write_bytes(b"nothing")
-        with pytest.raises(BadInputError, match=r"skins/model\.safetensors is damaged"):
+        (folder / SKINS_FILE).write_bytes(b"nothing")
+        with pytest.raises(BadInputError, match=r"skins\.safetensors is damaged"):
             Nano(read_options(Nano, {"model": str(folder)})).segment(skin(SLAB))
 
 

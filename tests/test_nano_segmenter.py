@@ -17,7 +17,7 @@ from simart_kit_plugins.nano.network import NanoNetwork
 from simart_kit_plugins.nano.proposals import of_geometry
 from simart_kit_plugins.nano.reading import PartsRead, PiecesRead
 from simart_kit_plugins.nano.segmenter import Nano
-from simart_kit_plugins.nano.stored_model import SKINS, shipped_folder
+from simart_kit_plugins.nano.stored_model import SKINS_FILE, shipped_folder
 from simart_kit_plugins.nano.trusting import enough
 from simart_kit_plugins.nano.truth import KINDS
 from simart_kit_plugins.nano.weights import load_model, save_network
@@ -89,7 +89,7 @@ class Told:
 
     def stand_in(self, patch: pytest.MonkeyPatch) -> None:
         """Be the model of every folder."""
-        patch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder: self)
+        patch.setattr("simart_kit_plugins.nano.stored_model.read_model", lambda folder, weights_file: self)
         patch.setattr("simart_kit_plugins.nano.stored_model.read_knowledge", lambda folder: self.known)
 
 
@@ -299,7 +299,7 @@ def test_parts_that_are_not_sure_enough_stay_with_the_body_and_are_told(monkeypa
 def test_a_recording_of_a_skin_shows_the_pieces_that_its_parts_were_found_by(tmp_path, of_skins, pool):
     """Those of relief, unless a network that knows no other looks at patches, and geometry at nothing."""
     mesh, folder = skin(SLAB), tmp_path / "model"
-    shutil.copytree(shipped_folder(), folder, ignore=None if of_skins else shutil.ignore_patterns(SKINS))
+    shutil.copytree(shipped_folder(), folder, ignore=None if of_skins else shutil.ignore_patterns(SKINS_FILE))
     found = Nano(read_options(Nano, {"model": str(folder), "pool": pool})).segment(mesh)
     by_relief = find_segments(mesh, relief=True).face_segment
     assert np.array_equal(found.face_segment, by_relief) == (of_skins or pool)

@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from .predicting import Prediction
 
 
-def said_by(folder: Path, cloud: Cloud, votes: int) -> Prediction:
-    """What a stored model says of a cloud, seen from so many sides, 1..8.
+def said_by(folder: Path, weights_file: str, cloud: Cloud, votes: int) -> Prediction:
+    """What weights in a model's folder say of a cloud, seen from so many sides, 1..8.
 
     Raises:
         BadInputError: see `stored_model.read_model`.
@@ -19,5 +19,5 @@ def said_by(folder: Path, cloud: Cloud, votes: int) -> Prediction:
     from .predicting import predict
     from .stored_model import read_model
 
-    model = read_model(folder)
+    model = read_model(folder, weights_file)
     return predict(model.network, cloud, votes, model.statistics)

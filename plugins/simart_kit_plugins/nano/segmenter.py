@@ -90,18 +90,17 @@ class Nano(Segmenter):
         from .proposals import of_geometry, with_body
         from .showing import evidence
         from .sliding_leaves import with_slides
-        from .stored_model import folder_of_skins, read_knowledge, shipped_folder
+        from .stored_model import SKINS_FILE, WEIGHTS_FILE, read_knowledge, reads_skins, shipped_folder
         from .trusting import enough, enough_on_skin, settled, stands_still
 
         folder = Path(self.options.model) if self.options.model else shipped_folder()
-        of_skins = folder_of_skins(folder)
-        segments = find_segments(mesh, relief=spec is None and of_skins is not None)
+        segments = find_segments(mesh, relief=spec is None and reads_skins(folder))
         seen = mesh_cloud(mesh, segments, np.random.default_rng(self.seed))
         # With a spec, a skin is cut by what the network says of its patches; else geometry finds more on it.
         asked = self.options.pool and not (seen.skin and spec is not None)
-        folder = of_skins if seen.relief and of_skins else folder
+        weights = SKINS_FILE if seen.relief else WEIGHTS_FILE
         known = read_knowledge(folder)
-        saying = beside.ask(said_by, folder, seen.cloud, self.options.votes)
+        saying = beside.ask(said_by, folder, weights, seen.cloud, self.options.votes)
         at_once = asked and len(mesh.faces) <= _MANY
         geometry = of_geometry(mesh, self.seed) if at_once else []
         said = saying.result()

@@ -1,4 +1,4 @@
-"""A model's folder as arrays: config.json, and model.safetensors in half precision. No pickle, no torch."""
+"""A model's folder as arrays: config.json, and weights in half precision beside it. No pickle, no torch."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from .novelty import TokenStatistics
 from .weight_shapes import kind_shapes, statistic_shapes, weight_shapes
 
 CONFIG_FILE, WEIGHTS_FILE = "config.json", "model.safetensors"
-# In a model's folder, one more model: of skins that are cut by relief.
-SKINS = "skins"
+# Beside the others, and of the same config: weights for skins that are cut by relief.
+SKINS_FILE = "skins.safetensors"
 _AGAIN = "give a folder that `train nano` wrote, or copy it again"
 
 
@@ -60,9 +60,9 @@ class StoredModel:
         return ArrayNetwork(self.config, self.weights)
 
 
-def folder_of_skins(folder: Path) -> Path | None:
-    """The folder of the weights for pieces of closed skins, in that of a model that has them."""
-    return folder / SKINS if (folder / SKINS).is_dir() else None
+def reads_skins(folder: Path) -> bool:
+    """Whether a model has weights of its own for the pieces of closed skins."""
+    return (folder / SKINS_FILE).exists()
 
 
 def shipped_folder() -> Path:
@@ -70,14 +70,14 @@ def shipped_folder() -> Path:
     return Path(str(files(__package__))) / "model"
 
 
-def read_model(folder: Path) -> StoredModel:
-    """Read a folder that `save_network` wrote.
+def read_model(folder: Path, weights_file: str = WEIGHTS_FILE) -> StoredModel:
+    """Read one of the files of weights of a folder that `save_network` wrote.
 
     Raises:
         BadInputError: a file is missing or damaged, the weights are of another config, or not all are finite.
     """
     file = _config(folder / CONFIG_FILE)
-    weights = _weights(folder / WEIGHTS_FILE)
+    weights = _weights(folder / weights_file)
     wanted = weight_shapes(file.config)
     of_statistics, of_kinds = statistic_shapes(file.config), kind_shapes(file.config)
     for optional in (of_statistics, of_kinds):
@@ -85,7 +85,7 @@ def read_model(folder: Path) -> StoredModel:
     wrong = _difference({name: array.shape for name, array in weights.items()}, wanted)
     if wrong:
         raise BadInputError(
-            f"{folder / WEIGHTS_FILE} is not of the network in {CONFIG_FILE} beside it: they are "
+            f"{folder / weights_file} is not of the network in {CONFIG_FILE} beside it: they are "
             f"of different ones ({shorten(wrong, 160)}): copy both files from one folder, "
             "or train it again where an older version made it"
         )

@@ -11,7 +11,7 @@ from simart_kit.bench.preflight import check_variant
 from simart_kit.errors import SimartKitError
 from simart_kit.plugins import Plugins
 
-from ..stored_model import folder_of_skins
+from ..stored_model import reads_skins
 from .case import Case, read_case
 from .judging import Judged
 from .rungs import candidates_step, pieces_step
@@ -57,7 +57,7 @@ def ladders(
     steps: _Steps = {PIECES: pieces_step, CANDIDATES: candidates_step}
     if model is not None:
         steps |= _steps_of(model)
-    relief = model is None or folder_of_skins(model) is not None
+    relief = model is None or reads_skins(model)
     for name, (reader, path) in truths.items():
         try:
             case = read_case(reader, path, variant, plugins, relief)

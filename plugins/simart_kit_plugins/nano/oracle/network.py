@@ -17,7 +17,7 @@ from ..array_network import ArrayNetwork
 from ..grouping import Group
 from ..predicting import PredictedPart, predict_groups
 from ..segmenter import Nano
-from ..stored_model import folder_of_skins, read_model
+from ..stored_model import SKINS_FILE, read_model, reads_skins
 from .case import Case, cloud_from_asset
 from .judging import Judged, judge
 
@@ -40,8 +40,7 @@ class Model:
 def load_model(folder: Path) -> Model:
     """Read a folder such as `train nano` writes; raises BadInputError where it is none."""
     network = read_model(folder).network
-    skins = folder_of_skins(folder)
-    of_skins = read_model(skins).network if skins else network
+    of_skins = read_model(folder, SKINS_FILE).network if reads_skins(folder) else network
     return Model(network, of_skins, Nano(read_options(Nano, {"model": str(folder)})))
 
 
