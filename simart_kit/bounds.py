@@ -35,6 +35,12 @@ def box_corners(bounds: FloatArray) -> FloatArray:
     return np.stack(np.meshgrid(x, y, z), axis=-1).reshape(-1, 3)
 
 
+def reaching(points: FloatArray, boxes: FloatArray) -> IntArray:
+    """Indices of those of (M, K, 3) sets of points whose box shares space with one of (N, 2, 3) boxes."""
+    lower, upper = points.min(axis=1)[:, None], points.max(axis=1)[:, None]
+    return np.flatnonzero(((lower < boxes[:, 1]) & (boxes[:, 0] < upper)).all(axis=2).any(axis=1))
+
+
 def sharing(box: FloatArray, boxes: FloatArray) -> IntArray:
     """Indices of the (N, 2, 3) boxes that share space with the (2, 3) box."""
     lower, upper = box

@@ -127,6 +127,10 @@ def gap(one: Convex, other: Convex, deep: float = 0.0) -> tuple[float, FloatArra
     middles = other.middle - one.middle
     length = float(np.linalg.norm(middles))
     between = middles[None] / length if length > 0 else np.eye(3)
+    for few in (between, one.normals) if deep > 0 else ():  # most are apart along these
+        found = _widest(one, other, few)
+        if found[0] > -deep:
+            return found
     found = _widest(one, other, np.concatenate([one.normals, other.normals, between]))
     if found[0] > -deep:
         return found

@@ -9,12 +9,13 @@ from functools import partial
 import numpy as np
 
 from .arrays import FloatArray, IntArray
-from .asset import Asset, ConvexMesh, Joint, Limits
-from .bounds import box_corners, sharing
+from .asset import Asset, ConvexMesh, Joint, Limits, Part
+from .bounds import box_corners, reaching, sharing
 from .clipping import extent, pulled_in
 from .convex_overlap import Convex, convex, gap, meets
 from .kept import kept
 from .kinematics import Positions, carried, moved_by, reach_box, rest_to_posed, span
+from .mesh import Mesh
 from .sweeping import Sweep, free_range
 from .topology import connected
 
@@ -78,12 +79,12 @@ def overlaps(asset: Asset, positions: Positions | None = None) -> tuple[Overlap,
     """
     if not positions:
         return _overlaps_at_rest(asset)
-    return _named(asset, _deepest(_posed(_shapes(asset), asset, positions), rigid_bodies(asset)))
+    return _named(asset, _deepest(_posed(_shapes(asset.parts), asset, positions), rigid_bodies(asset)))
 
 
 @kept
 def _overlaps_at_rest(asset: Asset) -> tuple[Overlap, ...]:
-    return _named(asset, _deepest(_shapes(asset), rigid_bodies(asset)))
+    return _named(asset, _deepest(_shapes(asset.parts), rigid_bodies(asset)))
 
 
 @kept
@@ -97,7 +98,7 @@ def overlaps_on_the_way(asset: Asset) -> tuple[Overlap, ...]:
     Args:
         asset: with collision shapes.
     """
-    found, shapes, bodies = dict[Pair, float](), _shapes(asset), rigid_bodies(asset)
+    found, shapes, bodies = dict[Pair, float](), _shapes(asset.parts), rigid_bodies(asset)
     for joint in (joint for joint in asset.joints if span(joint) != (0.0, 0.0)):
         carrier, mine = (
             np.flatnonzero(bodies == bodies[asset.part_index(name)]) for name in (joint.parent, joint.child)
@@ -124,18 +125,18 @@ def stopped_by_shapes(asset: Asset) -> tuple[Overlap, ...]:
     Args:
         asset: with collision shapes.
     """
-    found, shapes, bodies = dict[Pair, float](), _shapes(asset), rigid_bodies(asset)
+    found, shapes, bodies = dict[Pair, float](), _shapes(asset.parts), rigid_bodies(asset)
     known, at_rest = (
         {(asset.part_index(o.one), asset.part_index(o.other)) for o in met}
         for met in (overlaps_on_the_way(asset), overlaps(asset))
     )
     stopped, stuck = set[frozenset[int]](), set[frozenset[int]]()  # pairs of rigid bodies
     for joint in (joint for joint in asset.joints if span(joint) != (0.0, 0.0)):
-        moved = {asset.part_index(name) for name in carried(asset, joint.child)}
-        still = [part for part in range(len(asset.parts)) if part not in moved]
-        met = partial(_met, shapes, joint, sorted(moved), still)
-        deep = {p: d for p, d in met(_stops(span(joint), _NEAR_REST)).items() if d > STUCK and p not in known}
-        soon = met([share * end for end in span(joint) for share in _SOON]) if deep else {}
+        moved = frozenset(asset.part_index(name) for name in carried(asset, joint.child))
+        met = partial(_driven, asset.mesh, asset.parts, joint, moved)
+        all_the_way = met(tuple(_stops(span(joint), _NEAR_REST)))
+        deep = {p: d for p, d in all_the_way.items() if d > STUCK and p not in known}
+        soon = met(tuple(share * end for end in span(joint) for share in _SOON)) if deep else {}
         for pair, depth in deep.items():
             found[pair] = max(depth, found.get(pair, 0.0))
             if not _free(asset, joint, pair, moved) and not _stopped_when_open(
@@ -145,6 +146,18 @@ def stopped_by_shapes(asset: Asset) -> tuple[Overlap, ...]:
             elif soon.get(pair, 0.0) > STUCK and pair not in at_rest:
                 stuck.add(_rigid(bodies, pair))
     return _named(asset, {p: depth for p, depth in found.items() if _rigid(bodies, p) not in stopped - stuck})
+
+
+@kept
+def _driven(
+    mesh: Mesh, parts: tuple[Part, ...], joint: Joint, moved: frozenset[int], stops: tuple[float, ...]
+) -> Mapping[Pair, float]:
+    """How deep a joint drives parts into others at some of these positions [m].
+
+    Kept with the mesh, as it is asked for again whenever another of the joints has given way.
+    """
+    still = [part for part in range(len(parts)) if part not in moved]
+    return _met(_shapes(parts), joint, sorted(moved), still, stops)
 
 
 def _rigid(bodies: IntArray, pair: Pair) -> frozenset[int]:
@@ -200,10 +213,12 @@ def _met(
         return found
     touching = max(-least, 0.0) * np.array([[-1.0], [1.0]])
     boxes = np.array([one.bounds + touching for _, one in others])
-    near = sharing(reach_box(joint, np.concatenate([box_corners(one.bounds) for _, one in mine])), boxes)
+    corners = np.array([box_corners(one.bounds) for _, one in mine])
+    near = sharing(reach_box(joint, corners.reshape(-1, 3)), boxes)
     boxes = boxes[near]
     for posed_T_rest in (moved_by(joint, position) for position in stops if len(near)):
-        for part, one in mine:
+        turned = corners @ posed_T_rest[:3, :3].T + posed_T_rest[:3, 3]
+        for part, one in (mine[k] for k in reaching(turned, boxes)):
             moved = one.moved(posed_T_rest)
             for other, shape in (others[near[k]] for k in meets(moved, boxes)):
                 pair = (min(part, other), max(part, other))
@@ -232,7 +247,7 @@ def separated(asset: Asset, margin: float, clearance: float = CLEARANCE) -> Asse
         margin: most that a shape loses on a side for one neighbour [m].
         clearance: how far apart they are to be [m].
     """
-    shapes = _shapes(asset)
+    shapes = _shapes(asset.parts)
     for (one, i), (other, j) in _near(shapes, rigid_bodies(asset), clearance):
         first, second = shapes[one][i], shapes[other][j]
         apart, axis = gap(first, second)
@@ -268,9 +283,9 @@ def _pulls(
     return mine, lacking - mine
 
 
-def _shapes(asset: Asset) -> list[list[Convex]]:
+def _shapes(parts: Sequence[Part]) -> list[list[Convex]]:
     """The shapes of each part at rest."""
-    return [[convex(shape) for shape in part.collision] for part in asset.parts]
+    return [[convex(shape) for shape in part.collision] for part in parts]
 
 
 def _posed(shapes: Sequence[Sequence[Convex]], asset: Asset, positions: Positions) -> list[list[Convex]]:
