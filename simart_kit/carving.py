@@ -11,7 +11,7 @@ from .asset import Asset, ConvexMesh
 from .beside import ALONE, Beside
 from .convex_overlap import convex, gap, meets
 from .fitting import box_around, fitted
-from .hulls import hull_of, volume
+from .hulls import hull_corners, hull_of, volume
 from .separation import CLEARANCE, TOLERANCE, overlaps, replaced
 from .triangles import areas, unit_normals
 
@@ -71,9 +71,12 @@ def carved(shape: ConvexMesh, other: ConvexMesh, clearance: float = CLEARANCE) -
         clearance: how far the pieces stay away from it [m].
     """
     normals, ends = _planes(other)
-    around = _around(shape, normals, ends + clearance)
     single = _single(shape, normals, ends + clearance)
-    if single is not None and volume(single) > _MOSTLY * _volume(around):
+    left = 0.0 if single is None else volume(single)
+    if single is not None and left > _MOSTLY * volume(shape):
+        return (_fitted(single),)
+    around = _around(shape, normals, ends + clearance)
+    if single is not None and left > _MOSTLY * _volume(around):
         return (_fitted(single),)
     least = _SLIVER * volume(shape)
     return tuple(_fitted(piece) for piece in around if volume(piece) > least)
@@ -88,8 +91,13 @@ def trimmed(shape: ConvexMesh, other: ConvexMesh, clearance: float = CLEARANCE) 
 
 def _single(shape: ConvexMesh, normals: FloatArray, ends: FloatArray) -> ConvexMesh | None:
     """What one cut leaves of a shape: the one that leaves most."""
-    left = [_half(shape, -normal, -end) for normal, end in zip(normals, ends, strict=True)]
-    return max((piece for piece in left if piece is not None), key=volume, default=None)
+    best, most = None, 0.0
+    for normal, end in zip(normals, ends, strict=True):
+        points = _below(shape, -normal, -end)
+        held = None if points is None else hull_corners(points)
+        if held is not None and held[1] > most:
+            best, most = points, held[1]
+    return shape if best is shape.vertices else None if best is None else hull_of(best)
 
 
 def _around(shape: ConvexMesh, normals: FloatArray, ends: FloatArray) -> list[ConvexMesh]:
@@ -150,17 +158,22 @@ def _planes(shape: ConvexMesh) -> tuple[FloatArray, FloatArray]:
 
 def _half(shape: ConvexMesh, axis: FloatArray, end: float) -> ConvexMesh | None:
     """What of a shape lies no farther along a (3,) unit axis than `end` [m]; None where that is nothing."""
+    points = _below(shape, axis, end)
+    return shape if points is shape.vertices else None if points is None else hull_of(points)
+
+
+def _below(shape: ConvexMesh, axis: FloatArray, end: float) -> FloatArray | None:
+    """(N, 3) points around that, those of the shape where all of it is; None where it is nothing, or thin."""
     height = shape.vertices @ axis - end
     if height.max() <= 0:
-        return shape
-    if height.min() >= 0:
+        return shape.vertices
+    if height.min() > -_THIN:
         return None
     ends = shape.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     low, high = ends[(height[ends[:, 0]] <= 0) & (height[ends[:, 1]] > 0)].T
     share = (height[low] / (height[low] - height[high]))[:, None]
     cut = shape.vertices[low] + share * (shape.vertices[high] - shape.vertices[low])
-    hull = hull_of(np.concatenate([shape.vertices[height <= 0], cut]))
-    return None if hull is None or float(np.ptp(hull.vertices @ axis)) < _THIN else hull
+    return np.concatenate([shape.vertices[height <= 0], cut])
 
 
 def _fitted(piece: ConvexMesh) -> ConvexMesh:
