@@ -196,18 +196,24 @@ def test_the_command_trains_goes_on_and_judges(tmp_path, capfd, monkeypatch):
     assert "objects made: 10 of 10" in err
     assert run(["train", "nano", "--run", "out", "--steps", "2", *small]) == 2
     assert "out has a run already: go on with --resume" in capfd.readouterr().err
-    assert run(["train", "nano", "--run", "out", "--steps", "2", *small, "--evaluate", "-q"]) == 0
+    # What it was made with need not be said again, and may not be changed.
+    made = sorted((tmp_path / "out" / "objects").iterdir())
+    assert run(["train", "nano", "--run", "out", "--evaluate", "-q"]) == 0
     out, err = capfd.readouterr()
     assert "unseen categories" in out
     assert err == ""
-    assert run(["train", "nano", "--run", "out", "--steps", "3", *small, "--resume"]) == 2
+    assert sorted((tmp_path / "out" / "objects").iterdir()) == made
+    assert run(["train", "nano", "--run", "out", "--steps", "3", "--resume"]) == 2
     assert "is of another plan (steps differ)" in capfd.readouterr().err
+    assert sorted((tmp_path / "out" / "objects").iterdir()) == made
 
 
 @pytest.mark.parametrize(
     ("options", "told"),
     [
         (["--evaluate"], "out has no checkpoint to judge: train it first"),
+        (["--resume"], "out has no run to go on with: give another --run, or begin without --resume"),
+        (["--device", "cuda:99"], "device 'cuda:99' is not on this machine: "),
         (["--learning-rate", "0"], "training options: learning_rate: "),
         (
             ["--start-share", "0.5"],

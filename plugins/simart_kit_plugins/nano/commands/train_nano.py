@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -98,9 +99,9 @@ def train_nano(
 ) -> None:
     """Train the small model that finds parts and joints, on made-up objects.
 
-    The objects are made first and kept in the run's folder. A run that was stopped goes on when the same
-    command is given again with --resume. The model is in DIR/model at the end, or after --evaluate. Twelve
-    categories are never trained on, and judged apart.
+    The objects are made first and kept in the run's folder. A run that was stopped goes on with --resume, and
+    from its first checkpoint on knows its options. The model is in DIR/model at the end, or after --evaluate.
+    Twelve categories are never trained on, and judged apart.
     """
     changes = {
         "objects": objects,
@@ -119,7 +120,8 @@ def train_nano(
         "precision": precision,
     }
     with stdout_kept(json):
-        plan = _plan({name: value for name, value in changes.items() if value is not None})
+        given = {name: value for name, value in changes.items() if value is not None}
+        plan = _plan(given, run, goes_on=resume or evaluate)
         _check(run, plan, resume, evaluate)
         scores = _performed(plan, run, processes or os.cpu_count() or 1, evaluate, quiet)
     if json:
@@ -129,19 +131,25 @@ def train_nano(
     print("shares right: pairs of pieces, pieces that move, kind and first candidate of parts, categories")
 
 
-def _plan(changes: dict[str, object]) -> TrainingPlan:
+def _plan(changes: Mapping[str, object], run: Path, goes_on: bool) -> TrainingPlan:
+    """What was asked for; of a run that goes on, all else is as it was."""
     from pydantic import ValidationError
 
     from ...tables import told
+    from ..training import checkpoint
     from ..training.plan import TrainingPlan
 
+    known: dict[str, object] = (
+        checkpoint.plan_of(run).model_dump() if goes_on and checkpoint.exists(run) else {}
+    )
     try:
-        return TrainingPlan.model_validate(changes)
+        return TrainingPlan.model_validate({**known, **changes})
     except ValidationError as error:
         raise BadInputError(f"training options: {told(error)}") from error
 
 
 def _check(run: Path, plan: TrainingPlan, resume: bool, evaluate: bool) -> None:
+    from ...simart.training.device import training_device
     from ..training import checkpoint
     from ..weights import load_model
 
@@ -149,8 +157,13 @@ def _check(run: Path, plan: TrainingPlan, resume: bool, evaluate: bool) -> None:
         raise BadInputError(f"{run} is a file: choose a folder")
     if evaluate and not checkpoint.exists(run):
         raise BadInputError(f"{run} has no checkpoint to judge: train it first")
-    if checkpoint.exists(run) and not (resume or evaluate):
-        raise BadInputError(f"{run} has a run already: go on with --resume, or choose another --run")
+    if resume and not (checkpoint.exists(run) or (run / "objects").is_dir()):
+        raise BadInputError(f"{run} has no run to go on with: give another --run, or begin without --resume")
+    if checkpoint.exists(run):
+        if not (resume or evaluate):
+            raise BadInputError(f"{run} has a run already: go on with --resume, or choose another --run")
+        checkpoint.check_same(checkpoint.plan_of(run), plan, run)
+    training_device(plan.device)
     if plan.start_share and not plan.start:
         raise BadInputError("--start-share is the share of a model in the result: name it with --start")
     if plan.only and not plan.start:

@@ -130,6 +130,31 @@ def exists(run: Path) -> bool:
     return (run / FOLDER).is_dir() or (run / f"{FOLDER}.old").is_dir()
 
 
+def plan_of(run: Path) -> TrainingPlan:
+    """The plan of a run that has a checkpoint.
+
+    Raises:
+        BadInputError: it is damaged.
+    """
+    folder = _folder(run)
+    try:
+        return _plan(json.loads((folder / STATE).read_text(encoding="utf-8")))
+    except _DAMAGE as error:
+        raise _damaged(folder, error) from error
+
+
+def _folder(run: Path) -> Path:
+    return run / FOLDER if (run / FOLDER).is_dir() else run / f"{FOLDER}.old"
+
+
+def _plan(table: dict[str, object]) -> TrainingPlan:
+    return TrainingPlan.model_validate_json(json.dumps(table["plan"]))
+
+
+def _damaged(folder: Path, error: Exception) -> BadInputError:
+    return BadInputError(f"{folder} is damaged ({type(error).__name__}): train into another folder")
+
+
 def load(plan: TrainingPlan, run: Path) -> Progressing:
     """Read the state of a run with this plan.
 
@@ -139,10 +164,10 @@ def load(plan: TrainingPlan, run: Path) -> Progressing:
     from safetensors import SafetensorError
     from safetensors.torch import load_file
 
-    folder = run / FOLDER if (run / FOLDER).is_dir() else run / f"{FOLDER}.old"
+    folder = _folder(run)
     try:
         table = json.loads((folder / STATE).read_text(encoding="utf-8"))
-        _check_same(TrainingPlan.model_validate_json(json.dumps(table["plan"])), plan, folder)
+        check_same(_plan(table), plan, folder)
         tensors = load_file(folder / TENSORS)
         state = _with(NanoNetwork(plan.network), plan)
         with torch.no_grad():
@@ -150,8 +175,7 @@ def load(plan: TrainingPlan, run: Path) -> Progressing:
                 own.copy_(tensors[name])
         state.step, state.seconds = int(table["step"]), float(table["seconds"])
     except (*_DAMAGE, SafetensorError) as error:
-        kind = type(error).__name__
-        raise BadInputError(f"{folder} is damaged ({kind}): train into another folder") from error
+        raise _damaged(folder, error) from error
     return state
 
 
@@ -164,7 +188,8 @@ def _tensors(state: Progressing) -> dict[str, Tensor]:
     return found
 
 
-def _check_same(then: TrainingPlan, now: TrainingPlan, folder: Path) -> None:
+def check_same(then: TrainingPlan, now: TrainingPlan, folder: Path) -> None:
+    """Refuse to go on with another plan than a run's; raises BadInputError."""
     old, new = then.model_dump(), now.model_dump()
     changed = [name for name in old if old[name] != new[name] and name not in _FREE]
     if changed:
