@@ -80,5 +80,7 @@ class StageError(SimartKitError):
         self.distribution, self.version = distribution, version
         reason = str(cause).strip().splitlines()
         text = f"{type(cause).__name__}: {reason[0]}" if reason else type(cause).__name__
+        if reason and isinstance(cause, SimartKitError):
+            text = reason[0]  # written for the user, who need not know its class
         origin = f"{distribution} {version}".rstrip()
         super().__init__(f"{kind} '{name}' failed (plugin {plugin}, {origin}): {text}")

@@ -170,6 +170,11 @@ class Plugins:
         try:
             self.manager.register(plugin, name=f"{owner.plugin}-{id(plugin)}")
             self.manager.check_pending()
+            if not self.manager.get_hookcallers(plugin):
+                raise PluginError(
+                    f"{owner} has no hook: mark its functions with @simart_kit.hookimpl, by the names in "
+                    "docs/plugins.md"
+                )
             pending = self._collect(plugin, owner, commands_only)
         except Exception:
             if self.manager.is_registered(plugin):

@@ -144,7 +144,10 @@ BAD: dict[str, tuple[Make, str]] = {
         changed_gltf(lambda h: h["accessors"][0].update(normalized=True)),
         "POSITION as normalized",
     ),
-    "accessor that is not there": (changed_gltf(lambda h: h["accessors"].pop()), "IndexError"),
+    "accessor that is not there": (
+        changed_gltf(lambda h: h["accessors"].pop()),
+        "refers to what it does not have",
+    ),
     "nan": (broken_vertices("glb", np.nan), "2 of 8 vertices are NaN or infinite"),
     "infinity": (broken_vertices("glb", np.inf), "2 of 8 vertices are NaN or infinite"),
     "far too large": (

@@ -12,6 +12,7 @@ import pytest
 
 import simart_kit as sk
 from simart_kit import hookspecs
+from simart_kit.cli.help import help_text
 from simart_kit.stages import Composed, Stage
 from simart_kit.testing import contracts, pytest_plugin
 
@@ -121,3 +122,17 @@ def test_testing_kit_is_documented() -> None:
     fixtures = [n for n, v in vars(pytest_plugin).items() if "fixture" in type(v).__name__.lower()]
     assert (len(classes), len(fixtures)) == (5, 4)
     assert [name for name in classes + fixtures if f"`{name}`" not in TEXT] == []
+
+
+def commands(*words: str) -> list[str]:
+    """All commands below one, as its help lists them."""
+    listed = help_text(words).partition("\nCommands:\n")[2]
+    below = re.findall(r"^  (\S+)  ", listed, re.MULTILINE)
+    return [one for name in below for one in commands(*words, name)] if below else [" ".join(words)]
+
+
+def test_the_page_of_commands_has_all() -> None:
+    page = (ROOT / "docs" / "cli.md").read_text(encoding="utf-8")
+    headings = re.findall(r"^## simart-kit (.+)$", page, re.MULTILINE)
+    assert {"convert", "spec", "train nano", "bench run"} <= set(headings)
+    assert sorted(headings) == sorted(commands())

@@ -75,8 +75,22 @@ class TestScale:
         assert after.scale.factor == pytest.approx(2.0)
         assert "1.6 m as asked" in after.scale.reason
 
-    def test_factor_is_obeyed_even_if_implausible(self) -> None:
-        assert rescaled(cabinet_asset(), factor=100.0).mesh.bounds[1, 2] == pytest.approx(80.0)
+    @pytest.mark.parametrize("options", [{"factor": 100.0}, {"height": 80.0}, {"height": 0.008}])
+    def test_what_is_asked_for_is_obeyed_even_if_implausible_and_told(
+        self, options: dict[str, float]
+    ) -> None:
+        after = rescaled(cabinet_asset(), **options)
+        height = options.get("height", 80.0)
+        assert after.mesh.bounds[1, 2] == pytest.approx(height)
+        assert [n.level for n in after.notes] == ["warning"]
+        assert "is unusual (0.02 to 8 m): is it meant?" in after.notes[0].text
+
+    @pytest.mark.parametrize(
+        "options", [{"factor": 1e3}, {"height": 1e9}, {"factor": 1e-4}, {"height": 1e-9}]
+    )
+    def test_what_nothing_can_be_done_with_is_refused(self, options: dict[str, float]) -> None:
+        with pytest.raises(sk.BadInputError, match=r"simulators take 0.001 to 1000 m: check scale's height"):
+            rescaled(cabinet_asset(), **options)
 
     def test_factors_of_two_steps_multiply(self) -> None:
         assert rescaled(rescaled(cabinet_asset(), factor=2.0), factor=3.0).scale.factor == pytest.approx(6.0)

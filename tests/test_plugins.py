@@ -93,6 +93,11 @@ def test_files_of_one_name_do_not_disturb_each_other(write):
         (GOOD + "    raise RuntimeError('late')", "registration", "RuntimeError: late"),
         (GOOD + "\n@sk.hookimpl\ndef stage_ended(run): ...", "registration", "unknown hook"),
         (GOOD + "\n@sk.hookimpl\ndef run_started(runn): ...", "registration", "runn"),
+        (
+            GOOD.replace("@sk.hookimpl", ""),
+            "registration",
+            "has no hook: mark its functions with @simart_kit",
+        ),
     ],
 )
 def test_a_broken_plugin_is_recorded_and_leaves_no_trace(write, text, phase, error):

@@ -84,7 +84,8 @@ def one_line(error: BaseException) -> str:
     """The first line of an error's message, with its type where that says more."""
     lines = str(error).strip().splitlines() or [WORDLESS.get(type(error), "")]
     named = isinstance(error, (KeyError, IndexError, AttributeError)) or not lines[0]
-    return f"{type(error).__name__}: {lines[0]}".rstrip(": ") if named else lines[0]
+    text = f"{type(error).__name__}: {lines[0]}".rstrip(": ") if named else lines[0]
+    return f"it refers to what it does not have ({text})" if isinstance(error, IndexError) else text
 
 
 def check_zip(path: Path) -> None:

@@ -25,6 +25,10 @@ _SLIPS = {
 }
 
 
+# Diagonals [m] with which shapes, clearances and solvers still work.
+_LEAST, _MOST = 0.001, 1000.0
+
+
 class Scale(sk.Modifier):
     """Trust the file's metres if the object is then of a plausible size, else undo a unit slip."""
 
@@ -51,7 +55,11 @@ class Scale(sk.Modifier):
     options: Options
 
     def modify(self, asset: sk.Asset) -> sk.Asset:
-        """The asset in its real size, with `scale` saying why."""
+        """The asset in its real size, with `scale` saying why.
+
+        Raises:
+            BadInputError: nobody could simulate an object of the size that is asked for.
+        """
         factor, reason, sure = self._decide(asset)
         total = sk.Scale(asset.scale.factor * factor, reason)
         return replace(scaled(asset, factor), scale=total).with_notes(
@@ -63,14 +71,15 @@ class Scale(sk.Modifier):
         diagonal, options = asset.mesh.diagonal, self.options
         if options.factor is not None:
             factor, why = options.factor, f"factor {options.factor:g} as asked"
-            return factor, f"{why}: the diagonal is now {diagonal * factor:.3g} m", True
+            return self._asked(diagonal, factor, f"{why}: the diagonal is now {diagonal * factor:.3g} m")
         if options.height is not None:
             height = float(asset.mesh.bounds[1, 2] - asset.mesh.bounds[0, 2])
             if not height > 0:
                 raise BadInputError("the object is flat on the ground: give scale's factor, not height")
             why = f"height {options.height:g} m as asked, {height:.3g} m in the file"
-            return options.height / height, f"{why}: factor {options.height / height:.4g}", True
-        plausible = f"({options.smallest:g} to {options.largest:g} m)"
+            factor = options.height / height
+            return self._asked(diagonal, factor, f"{why}: factor {factor:.4g}")
+        plausible = self._plausible
         if options.smallest <= diagonal <= options.largest:
             return 1.0, f"the file's metres: its diagonal of {diagonal:.3g} m is plausible {plausible}", True
         said = f"a diagonal of {diagonal:.3g} m is implausible {plausible}"
@@ -78,7 +87,28 @@ class Scale(sk.Modifier):
         if slip is None:
             return 1 / diagonal, f"{said}, as with any usual unit: scaled to a diagonal of 1 m", False
         factor = _SLIPS[slip]
-        return factor, f"{said}: {slip}? scaled by {factor:.4g} to {diagonal * factor:.3g} m", False
+        told = f"{said}: {slip}? scaled by {factor:.4g} to {diagonal * factor:.3g} m (--scale 1 leaves it)"
+        return factor, told, False
+
+    @property
+    def _plausible(self) -> str:
+        return f"({self.options.smallest:g} to {self.options.largest:g} m)"
+
+    def _asked(self, diagonal: float, factor: float, reason: str) -> tuple[float, str, bool]:
+        """A factor that the user gave, unless it is one that nothing can be done with."""
+        size = diagonal * factor
+        if not _LEAST <= size <= _MOST:
+            raise BadInputError(
+                f"the object would have a diagonal of {size:.4g} m, and simulators take {_LEAST:g} to "
+                f"{_MOST:g} m: check scale's height or factor (--height is in metres, --scale a factor)"
+            )
+        if self.options.smallest <= size <= self.options.largest:
+            return factor, reason, True
+        return (
+            factor,
+            f"{reason}; a diagonal of {size:.3g} m is unusual {self._plausible}: is it meant?",
+            False,
+        )
 
     def _slip(self, diagonal: float) -> str | None:
         """The unit slip that explains a diagonal [m]: metric before inches, then nearest to 1 m."""
