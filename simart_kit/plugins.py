@@ -170,11 +170,6 @@ class Plugins:
         try:
             self.manager.register(plugin, name=f"{owner.plugin}-{id(plugin)}")
             self.manager.check_pending()
-            if not self.manager.get_hookcallers(plugin):
-                raise PluginError(
-                    f"{owner} has no hook: mark its functions with @simart_kit.hookimpl, by the names in "
-                    "docs/plugins.md"
-                )
             pending = self._collect(plugin, owner, commands_only)
         except Exception:
             if self.manager.is_registered(plugin):
@@ -233,6 +228,10 @@ class Plugins:
             plugin = import_plugin(source)
             phase = "registration"
             made = plugin() if isinstance(plugin, type) else plugin
+            if not any(self.manager.parse_hookimpl_opts(made, name) for name in dir(made)):
+                raise PluginError(
+                    "no hook: mark functions named in docs/plugins.md with @simart_kit.hookimpl"
+                )
             self.register(made, owner, commands_only=commands_only)
         except (Exception, SystemExit) as error:
             text = " ".join(str(error).split()) or type(error).__name__

@@ -116,6 +116,16 @@ class TestSweep:
         assert listed.evidence["excluded"] == ["base in slider"]
         assert max(row["depth"] for row in listed.evidence["deep"]) == pytest.approx(0.05, abs=1e-6)
 
+    def test_what_sinks_into_a_free_part_that_carries_it_passes(self, tmp_path: Path) -> None:
+        """MuJoCo lets a body and the one that it moves on pass, and the file need not exclude them."""
+        asset = with_joint("door_hinge", kind="free", limits=None)
+        slide = replace(asset.joint("drawer_slide"), parent="door", axis=(0.0, 0.0, -1.0))
+        subject = subject_in(tmp_path, asset.with_joints({"drawer_slide": slide}), "mjcf")
+        result = judged("sweep", subject)
+        assert result.passed
+        assert result.evidence["excluded"] == ["door in drawer"]
+        assert max(row["depth"] for row in result.evidence["deep"]) == pytest.approx(0.02, abs=1e-3)
+
     def test_a_base_that_floats_excludes_nothing(self, tmp_path: Path) -> None:
         inside = self.BLOCKED.replace("</body>", "", 1) + "</body>"
         floating = inside.replace('<body name="base">', '<body name="base"><freejoint/>')

@@ -13,10 +13,11 @@ BUTTON = ((0.4, -0.04, 0.4), (0.5, 0.0, 0.5))  # before the front, at -y
 DRAWER = ((0.1, -0.02, 0.1), (0.9, 0.8, 0.3))
 
 
-def limits_of(box, kind, axis, limits, label=""):
-    mesh = boxes_mesh([BODY, box])
+def limits_of(box, kind, axis, limits, label="", beside=()):
+    mesh = boxes_mesh([BODY, *beside, box])
     joint = sk.Joint("j", kind, "body", "part", (0, 0, 0), axis, limits and sk.Limits(*limits))
-    proposal = Proposal(np.arange(24) >= 12, sk.PartGuess("part", label=label), joint, None)
+    own = np.arange(len(mesh.faces)) >= len(mesh.faces) - 12
+    proposal = Proposal(own, sk.PartGuess("part", label=label), joint, None)
     (found,) = with_travel(mesh, [proposal])
     return found.joint.limits and (found.joint.limits.lower, found.joint.limits.upper)
 
@@ -35,6 +36,13 @@ def test_a_large_thing_is_pulled_out_by_half_its_depth(y, expected):
 @pytest.mark.parametrize("limits", [(-0.003, 0.008), (-0.008, 0.0), (0.0, 0.008)])
 def test_a_button_goes_in_and_not_out(y, expected, limits):
     assert limits_of(BUTTON, "prismatic", (0, y, 0), limits, "button") == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(("y", "expected"), [(1, (0.0, 0.008)), (-1, (-0.008, 0.0))])
+def test_a_button_goes_into_what_is_behind_it_wherever_that_is_on_the_object(y, expected):
+    bowl = ((0, -2.0, 0), (1, -1.0, 0.3))  # before the front that the button is on, and below it
+    found = limits_of(BUTTON, "prismatic", (0, y, 0), (-0.008, 0.008), "button", [bowl])
+    assert found == pytest.approx(expected)
 
 
 def test_what_is_called_a_button_and_is_large_goes_where_it_goes():

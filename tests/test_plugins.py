@@ -96,7 +96,7 @@ def test_files_of_one_name_do_not_disturb_each_other(write):
         (
             GOOD.replace("@sk.hookimpl", ""),
             "registration",
-            "has no hook: mark its functions with @simart_kit",
+            "no hook: mark functions named in docs/plugins.md",
         ),
     ],
 )

@@ -102,6 +102,7 @@ def _passing(subject: Subject) -> set[str]:
         return set()
     model, asset, bodies = subject.simulation.model, subject.asset, rigid_bodies(subject.asset)
     moved = {body_name(model, body) for body in range(model.nbody) if model.body_weldid[body]}
+    moved |= {joint.child for joint in asset.joints if joint.kind == "free"}  # there it stays where it lies
     group = {part.name: int(body) for part, body in zip(asset.parts, bodies, strict=True)}
     jointed = {frozenset((group[j.parent], group[j.child])) for j in asset.joints if j.parent in moved}
     met = ((found.one, found.other) for found in overlaps_on_the_way(asset))
