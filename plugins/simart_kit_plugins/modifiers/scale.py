@@ -104,11 +104,8 @@ class Scale(sk.Modifier):
             )
         if self.options.smallest <= size <= self.options.largest:
             return factor, reason, True
-        return (
-            factor,
-            f"{reason}; a diagonal of {size:.3g} m is unusual {self._plausible}: is it meant?",
-            False,
-        )
+        told = f"{reason}; a diagonal of {size:.3g} m is unusual {self._plausible}: is it meant?"
+        return factor, told, False
 
     def _slip(self, diagonal: float) -> str | None:
         """The unit slip that explains a diagonal [m]: metric before inches, then nearest to 1 m."""
