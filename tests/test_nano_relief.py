@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from simart_kit_plugins.geometric.segmenter import Geometric
+from simart_kit_plugins.nano.config import NanoConfig
 from simart_kit_plugins.nano.generate.catalogue import CATEGORIES
 from simart_kit_plugins.nano.generate.category import named
 from simart_kit_plugins.nano.generate.data_set import generated
@@ -16,15 +17,23 @@ from simart_kit_plugins.nano.generate.posing import ajar
 from simart_kit_plugins.nano.generate.skins import skin_of
 from simart_kit_plugins.nano.generate.writing import mesh_of
 from simart_kit_plugins.nano.meshes import mesh_cloud
+from simart_kit_plugins.nano.network import NanoNetwork
 from simart_kit_plugins.nano.predicting import Prediction
 from simart_kit_plugins.nano.proposals import of_geometry
 from simart_kit_plugins.nano.relief_examples import relief_example, relief_of, skin_mesh, surface_of
 from simart_kit_plugins.nano.segmenter import Nano
 from simart_kit_plugins.nano.store import load, save, stored
-from simart_kit_plugins.nano.stored_model import SKINS_FILE, read_model, reads_skins, shipped_folder
+from simart_kit_plugins.nano.stored_model import (
+    SKINS_FILE,
+    WEIGHTS_FILE,
+    read_model,
+    reads_skins,
+    shipped_folder,
+)
 from simart_kit_plugins.nano.training import pool
 from simart_kit_plugins.nano.training.plan import TrainingPlan
 from simart_kit_plugins.nano.trusting import enough_on_skin, leads_on_skin
+from simart_kit_plugins.nano.weights import save_network
 from simart_kit_plugins.shapes.dice import Dice
 
 from simart_kit.arrays import IntArray
@@ -138,6 +147,15 @@ class TestWeights:
         for model, kind in ((folder, "patches of one skin"), (shipped_folder(), "pieces of one skin")):
             found = Nano(read_options(Nano, {"model": str(model)})).segment(skin(SLAB))
             assert any(kind in note.text for note in found.notes)
+
+    def test_those_of_another_network_are_refused(self, tmp_path: Path) -> None:
+        folder = self.copied(tmp_path / "model")
+        save_network(NanoNetwork(NanoConfig(channels=16, heads=2)), tmp_path / "other")
+        shutil.copy(tmp_path / "other" / WEIGHTS_FILE, folder / SKINS_FILE)
+        with pytest.raises(
+            BadInputError, match=r"skins\.safetensors is not of .* with --start and this folder"
+        ):
+            Nano(read_options(Nano, {"model": str(folder)})).segment(skin(SLAB))
 
     def test_damaged_ones_are_refused(self, tmp_path: Path) -> None:
         folder = self.copied(tmp_path / "model")

@@ -94,6 +94,14 @@ def test_a_training_goes_on_from_the_weights_of_a_model(plan, objects, tmp_path)
         checkpoint.begun(other)
 
 
+def test_a_training_that_goes_on_keeps_the_names_that_only_the_model_knows(plan, objects, tmp_path):
+    network = plan.network.model_copy(update={"labels": ("a rare part",), "categories": ("a rare thing",)})
+    save_network(NanoNetwork(network, 0), tmp_path / "model")
+    further = with_names(PLAN.model_copy(update={"start": str(tmp_path / "model")}), objects).network
+    assert further.labels == tuple(sorted({"a rare part", *plan.network.labels}))
+    assert further.categories == tuple(sorted({"a rare thing", *plan.network.categories}))
+
+
 def test_names_that_the_start_does_not_know_begin_afresh_and_the_others_keep_their_rows(
     plan, objects, tmp_path
 ):

@@ -26,6 +26,8 @@ from .weight_shapes import kind_shapes, statistic_shapes, weight_shapes
 CONFIG_FILE, WEIGHTS_FILE = "config.json", "model.safetensors"
 # Beside the others, and of the same config: weights for skins that are cut by relief.
 SKINS_FILE = "skins.safetensors"
+_TOGETHER = "copy both files from one folder, or train it again where an older version made it"
+_START = "train it with --start and this folder"
 _AGAIN = "give a folder that `train nano` wrote, or copy it again"
 
 
@@ -84,10 +86,10 @@ def read_model(folder: Path, weights_file: str = WEIGHTS_FILE) -> StoredModel:
         wanted |= optional if weights.keys() & optional.keys() else {}
     wrong = _difference({name: array.shape for name, array in weights.items()}, wanted)
     if wrong:
+        apart = weights_file == SKINS_FILE
         raise BadInputError(
             f"{folder / weights_file} is not of the network in {CONFIG_FILE} beside it: they are "
-            f"of different ones ({shorten(wrong, 160)}): copy both files from one folder, "
-            "or train it again where an older version made it"
+            f"of different ones ({shorten(wrong, 160)}): {_START if apart else _TOGETHER}"
         )
     numbers = [weights.pop(name) for name in of_statistics if name in weights]
     of_each = [weights.pop(name) for name in of_kinds if name in weights]

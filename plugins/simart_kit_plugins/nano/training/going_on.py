@@ -23,7 +23,7 @@ def weights_of_start(plan: TrainingPlan, afresh: Mapping[str, Tensor]) -> dict[s
     Args:
         plan: with a `start`.
         afresh: weights of a network of the plan's: the rows of names that the model does not know are taken
-            from there. What only the model knows is forgotten.
+            from there. What only the model knows is left out.
 
     Raises:
         BadInputError: the model cannot be read, or its network is of other sizes than the plan's.

@@ -20,6 +20,7 @@ from ..losses import losses
 from ..mixing import varied
 from ..network import NanoNetwork
 from ..store import Stored
+from ..stored_model import read_model
 from . import checkpoint
 from .checkpoint import Progressing
 from .plan import TrainingPlan
@@ -48,10 +49,19 @@ class NanoRow:
 
 
 def with_names(plan: TrainingPlan, examples: Sequence[Stored]) -> TrainingPlan:
-    """The plan with the labels and categories of the examples; what is nothing in particular has none."""
-    labels = sorted({str(label) for one in examples for label in one.label})
-    categories = sorted({one.category for one in examples} - set(NAMELESS))
-    named = {"labels": tuple(labels), "categories": tuple(categories)}
+    """The plan with the labels and categories of the examples and of the model that it goes on from.
+
+    What is nothing in particular has none.
+
+    Raises:
+        BadInputError: that model cannot be read.
+    """
+    labels = {str(label) for one in examples for label in one.label}
+    categories = {one.category for one in examples} - set(NAMELESS)
+    if plan.start:
+        known = read_model(Path(plan.start)).config
+        labels, categories = labels | set(known.labels), categories | set(known.categories)
+    named = {"labels": tuple(sorted(labels)), "categories": tuple(sorted(categories))}
     network = NanoConfig(**{**plan.network.model_dump(), **named})
     return plan.model_copy(update={"network": network})
 
