@@ -328,11 +328,14 @@ def test_a_server_that_repeats_the_key_in_errors_spreads_it_nowhere(home, quick,
 
 
 SMALL = """
+from simart_kit import hookimpl
 from simart_kit_plugins.marks import axis_sheet, sheets
 from simart_kit.drawing import preview
 
-sheets.PANEL = axis_sheet.PANEL = 40
-sheets.TILE, preview.PANEL = 32, (80, 64)
+@hookimpl
+def register_commands(register):
+    sheets.PANEL = axis_sheet.PANEL = 40
+    sheets.TILE, preview.PANEL = 32, (80, 64)
 """
 
 
