@@ -333,7 +333,7 @@ from simart_kit_plugins.marks import axis_sheet, sheets
 from simart_kit.drawing import preview
 
 @hookimpl
-def register_commands(register):
+def register_modifiers(register):
     sheets.PANEL = axis_sheet.PANEL = 40
     sheets.TILE, preview.PANEL = 32, (80, 64)
 """
