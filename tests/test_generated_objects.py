@@ -13,6 +13,7 @@ from simart_kit_plugins.nano.generate.objects import (
     Body,
     GeneratedObject,
     Look,
+    Surface,
     ball,
     free,
     hinge,
@@ -143,6 +144,13 @@ def test_a_folder_holds_a_textured_mesh_and_the_truth_that_the_bench_reads(tmp_p
     table = json.loads((folders[0] / "gt.json").read_text())
     assert [part["material"] for part in table["parts"]] == ["wood", "wood", "steel", "wood"]
     assert table["licence"] == "CC0-1.0"
+
+
+def test_a_body_is_of_what_most_of_its_surface_is_of_however_many_triangles_the_rest_has():
+    board = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]])
+    eggs = np.tile(0.01 * board, (50, 1, 1))
+    body = Body("door", "door", (Surface(eggs, STEEL), Surface(board, WOOD), Surface(eggs, STEEL)))
+    assert body.material == "wood"
 
 
 def test_an_object_depends_on_its_seed_and_number_alone(tmp_path):

@@ -26,6 +26,12 @@ def test_knowledge_is_counted_among_generated_objects():
     assert known == counted(["washing_machine", "bed"], seed=3)
 
 
+def test_feet_and_eggs_do_not_say_what_a_thing_is_made_of():
+    known = counted(["microwave", "fridge"], seed=3)
+    assert known.material("microwave", "") == "steel"  # its rubber feet have more triangles
+    assert known.material("fridge", "door") in ("steel", "plastic")
+
+
 def test_knowledge_is_kept_beside_the_weights(tmp_path):
     config = NanoConfig(channels=16, layers=1, heads=2, hidden=16, point_channels=8)
     known = Knowledge(materials={"/door": "glass"}, still=("bed",))

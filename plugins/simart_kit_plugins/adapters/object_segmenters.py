@@ -42,6 +42,8 @@ class ObjectFiles(Segmenter):
         Raises:
             BadInputError: no file is named, it is damaged, or it is of another mesh.
         """
+        from simart_kit.told_materials import as_told
+
         path = self._path()
         try:
             there, notes = self._placed(path, mesh)
@@ -57,7 +59,7 @@ class ObjectFiles(Segmenter):
             texts.append(
                 f"{missing} of {len(mesh.faces)} faces are of no part: they go with their neighbours"
             )
-        return Segmentation(
+        result = Segmentation(
             found.face_part,
             found.parts,
             joints=found.hints,
@@ -66,6 +68,7 @@ class ObjectFiles(Segmenter):
                 *(Note("segment", "warning", text) for text in found.notes),
             ),
         )
+        return as_told(result, mesh)
 
     @abstractmethod
     def _path(self) -> Path:

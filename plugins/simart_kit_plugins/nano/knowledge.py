@@ -10,7 +10,7 @@ from pydantic import Field
 from ..tables import Table
 
 # Objects of each category that are asked.
-_ASKED = 6
+_ASKED = 24
 # What the body is called here; no part is.
 BODY = ""
 
@@ -44,9 +44,8 @@ def counted(categories: Sequence[str], seed: int) -> Knowledge:
         still += [] if category.moves else [name]
         for number in range(_ASKED):
             for k, body in enumerate(category.make(Dice((seed, number, 3))).bodies):
-                largest = max(body.surfaces, key=lambda surface: surface.triangles.shape[0])
                 label = body.label if k else BODY
                 for key in (f"{name}/{label}", f"/{label}"):
-                    counts.setdefault(key, Counter())[largest.look.material] += 1
+                    counts.setdefault(key, Counter())[body.material] += 1
     usual = {key: sorted(found, key=lambda m: (-found[m], m))[0] for key, found in sorted(counts.items())}
     return Knowledge(materials=usual, still=tuple(still))

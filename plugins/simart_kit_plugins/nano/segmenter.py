@@ -80,7 +80,9 @@ class Nano(Segmenter):
 
     def segment_beside(self, mesh: Mesh, spec: Spec | None, beside: Beside) -> Segmentation:
         """As `segment` or `segment_to`; the network reads in another process, if there is one."""
-        return seen_straight(mesh, lambda straight: self._segmented(straight, spec, beside))
+        from simart_kit.told_materials import as_told
+
+        return as_told(seen_straight(mesh, lambda straight: self._segmented(straight, spec, beside)), mesh)
 
     def _segmented(self, mesh: Mesh, spec: Spec | None, beside: Beside) -> Segmentation:
         from simart_kit.segments import find_segments

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from simart_kit.arrays import FloatArray, frozen_floats, unit
 from simart_kit.asset import JointKind
+from simart_kit.triangles import areas
 
 from ...shapes.primitives import Pieces
 
@@ -101,6 +102,15 @@ class Body:
     def triangles(self) -> FloatArray:
         """(F, 3, 3) of all surfaces [m]."""
         return np.concatenate([surface.triangles for surface in self.surfaces])
+
+    @property
+    def material(self) -> str:
+        """Key of the material table of what most of its surface is of."""
+        of_each: dict[str, float] = {}
+        for one in self.surfaces:
+            stuff = one.look.material
+            of_each[stuff] = of_each.get(stuff, 0.0) + float(areas(one.triangles).sum())
+        return max(of_each, key=lambda stuff: of_each[stuff])
 
     def placed(self, matrix: FloatArray, offset: FloatArray) -> Body:
         """After x -> matrix x + offset."""

@@ -115,7 +115,7 @@ def _glb(mesh: GeneratedMesh, name: str) -> bytes:
 def _table(made: GeneratedObject, name: str) -> dict[str, Any]:
     rows = part_rows([_link(body) for body in made.bodies])
     for row, body in zip(rows, made.bodies, strict=True):
-        row["material"] = max(body.surfaces, key=lambda s: len(s.triangles)).look.material
+        row["material"] = body.material
     return {
         "case": name,
         "category": made.category,

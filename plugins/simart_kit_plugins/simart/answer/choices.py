@@ -8,33 +8,11 @@ import unicodedata
 from dataclasses import dataclass
 from typing import Literal
 
+from simart_kit.material_words import rows_meant
 from simart_kit.materials import DEFAULT_MATERIAL, MATERIALS
 
 from .values import NAME_LENGTH
 
-# Which row of the material table a word means, and where that is from: "EC1" are tables A.1 to A.5 of
-# EN 1991-1-1:2002, which list both with like densities; "kind" is a kind of the material, by definition.
-_SYNONYMS: tuple[tuple[str, str, str], ...] = (
-    ("wood", "wooden timber oak pine beech birch walnut maple cherry teak bamboo", "kind"),
-    ("mdf", "fiberboard fibreboard", "kind"),
-    ("mdf", "chipboard hardboard particleboard", "EC1"),
-    ("steel", "iron", "EC1"),
-    ("aluminium", "aluminum duralumin", "kind"),
-    ("brass", "bronze copper", "EC1"),
-    ("plastic", "polymer abs pvc pp pe hdpe pet nylon polypropylene polyethylene polystyrene", "kind"),
-    ("plastic", "polycarbonate plexiglass", "kind"),
-    ("plastic", "acrylic", "EC1"),
-    ("ceramic", "ceramics porcelain earthenware stoneware", "kind"),
-    ("stone", "marble granite slate limestone sandstone", "EC1"),
-    ("concrete", "cement mortar", "EC1"),
-    ("rubber", "silicone latex elastomer", "kind"),
-    ("fabric", "cloth textile cotton linen wool polyester canvas", "kind"),
-    ("foam", "sponge", "kind"),
-)
-_MEANT = {word: material for material, words, _ in _SYNONYMS for word in words.split()}
-# Words for several materials: density decides, and where there is none the first is meant.
-_METALS = ("steel", "aluminium", "brass")
-_SEVERAL: dict[str, tuple[str, ...]] = {"metal": _METALS, "metallic": _METALS, "alloy": _METALS}
 # Abbreviations that a capital letter alone would spoil.
 _WRITTEN = {"mdf": "MDF"}
 
@@ -63,15 +41,10 @@ def choose_material(text: str, density: float | None) -> MaterialChoice:
         density: [g/cm^3]; None for none.
     """
     words = re.findall(r"[a-z]+", text.lower())
-    for word in reversed(words):
-        for known in (word, word.removesuffix("s")):
-            if known in MATERIALS:
-                return MaterialChoice(known, "name")
-            if known in _MEANT:
-                return MaterialChoice(_MEANT[known], "name")
-    for word in reversed(words):
-        if several := _SEVERAL.get(word) or _SEVERAL.get(word.removesuffix("s")):
-            return MaterialChoice(_nearest(several, density), "name")
+    meant = [rows for word in reversed(words) if (rows := rows_meant(word))]
+    if meant:
+        # Words for several materials, such as "metal", tell where none is named; then density decides.
+        return MaterialChoice(_nearest(min(meant, key=len), density), "name")
     if density is not None:
         return MaterialChoice(_nearest(tuple(MATERIALS), density), "density")
     return MaterialChoice(DEFAULT_MATERIAL, "default")
