@@ -119,6 +119,12 @@ BAD: dict[str, tuple[Make, str]] = {
     "glb cut in its data": (cut("glb", 0.9), "cut off"),
     "glb version 1": (text("a.glb", b"glTF" + struct.pack("<IIII", 1, 20, 0, 0)), "glTF 2.0"),
     "gltf that is no json": (text("a.gltf", "{nonsense"), "cannot be read as GLTF"),
+    "gltf version 1 that says so": (text("a.gltf", '{"asset": {"version": "1.0"}}'), "version 1, which"),
+    "gltf version 1 by its objects": (text("a.gltf", '{"asset": {}, "meshes": {"a": 1}}'), "glTF 2.0"),
+    "glb with a first chunk of another kind": (
+        text("a.glb", b"glTF" + struct.pack("<IIII", 2, 20, 0, 0)),
+        "not JSON",
+    ),
     "gltf that is a list": (text("a.gltf", "[1, 2]"), "not glTF"),
     "gltf nested too deep": (text("a.gltf", "[" * 100_000), "cannot be read as GLTF"),
     "buffer missing": (buffer_at("gone.bin"), "'gone.bin'.*not in its folder"),

@@ -14,6 +14,7 @@ from simart_kit import BadInputError
 HARMLESS = ("KHR_materials_", "KHR_lights_punctual", "KHR_texture_transform", "EXT_texture_webp")
 QUANTIZED = "KHR_mesh_quantization"
 FLOAT = 5126
+_OLD = "glTF of version {}, which is not supported: export it as glTF 2.0"
 
 
 def check_gltf(path: Path) -> list[str]:
@@ -25,6 +26,9 @@ def check_gltf(path: Path) -> list[str]:
     header = _glb_header(path) if path.suffix.lower() == ".glb" else json.loads(path.read_bytes())
     if not isinstance(header, dict) or "asset" not in header:
         raise BadInputError("not glTF: the JSON has no 'asset'; check what wrote it")
+    # Files of version 1, which have objects where version 2 has lists, need not say it.
+    if str(header["asset"].get("version", "2")).startswith("1") or isinstance(header.get("meshes"), dict):
+        raise BadInputError(_OLD.format(1))
     for name in header.get("extensionsRequired", []):
         if not name.startswith(HARMLESS) and name != QUANTIZED:
             raise BadInputError(f"it needs glTF extension {name}, which is not supported: export it without")
@@ -40,8 +44,10 @@ def _glb_header(path: Path) -> Any:
     if len(data) < 20:
         raise BadInputError(f"cut off after {len(data)} bytes; copy or export it again")
     _, version, length, chunk, kind = struct.unpack("<4sIII4s", data[:20])
-    if version != 2 or kind != b"JSON":
-        raise BadInputError(f"GLB version {version} with a first chunk {kind!r}: export it as glTF 2.0")
+    if version != 2:
+        raise BadInputError(_OLD.format(version))
+    if kind != b"JSON":
+        raise BadInputError(f"damaged: its first chunk is {kind!r}, not JSON; export it again")
     if length > len(data) or 20 + chunk > len(data):
         raise BadInputError(f"cut off: it says {length} bytes and has {len(data)}; export it again")
     return json.loads(data[20 : 20 + chunk])
