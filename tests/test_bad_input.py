@@ -125,6 +125,10 @@ BAD: dict[str, tuple[Make, str]] = {
         text("a.glb", b"glTF" + struct.pack("<IIII", 2, 20, 0, 0)),
         "not JSON",
     ),
+    "gltf of triangle fans": (
+        text("a.gltf", '{"asset": {}, "meshes": [{"primitives": [{"attributes": {}, "mode": 6}]}]}'),
+        "triangle fans",
+    ),
     "gltf that is a list": (text("a.gltf", "[1, 2]"), "not glTF"),
     "gltf nested too deep": (text("a.gltf", "[" * 100_000), "cannot be read as GLTF"),
     "buffer missing": (buffer_at("gone.bin"), "'gone.bin'.*not in its folder"),

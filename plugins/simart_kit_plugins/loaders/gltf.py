@@ -14,6 +14,7 @@ from simart_kit import BadInputError
 HARMLESS = ("KHR_materials_", "KHR_lights_punctual", "KHR_texture_transform", "EXT_texture_webp")
 QUANTIZED = "KHR_mesh_quantization"
 FLOAT = 5126
+_FAN = 6
 _OLD = "glTF of version {}, which is not supported: export it as glTF 2.0"
 
 
@@ -32,6 +33,9 @@ def check_gltf(path: Path) -> list[str]:
     for name in header.get("extensionsRequired", []):
         if not name.startswith(HARMLESS) and name != QUANTIZED:
             raise BadInputError(f"it needs glTF extension {name}, which is not supported: export it without")
+    if any(primitive.get("mode") == _FAN for primitive in _primitives(header)):
+        # trimesh leaves them out.
+        raise BadInputError("it stores triangle fans, which are not supported: export it as plain triangles")
     for attribute, index in _attributes(header):
         _check_accessor(header["accessors"][index], attribute, index)
     return list(_left_out(header))
@@ -53,12 +57,16 @@ def _glb_header(path: Path) -> Any:
     return json.loads(data[20 : 20 + chunk])
 
 
-def _attributes(header: Any) -> Iterator[tuple[str, int]]:
+def _primitives(header: Any) -> Iterator[Any]:
     for mesh in header.get("meshes", []):
-        for primitive in mesh["primitives"]:
-            yield from primitive["attributes"].items()
-            if "indices" in primitive:
-                yield "indices", primitive["indices"]
+        yield from mesh["primitives"]
+
+
+def _attributes(header: Any) -> Iterator[tuple[str, int]]:
+    for primitive in _primitives(header):
+        yield from primitive["attributes"].items()
+        if "indices" in primitive:
+            yield "indices", primitive["indices"]
 
 
 def _check_accessor(accessor: Any, attribute: str, index: int) -> None:
@@ -80,7 +88,7 @@ def _check_accessor(accessor: Any, attribute: str, index: int) -> None:
 def _left_out(header: Any) -> Iterator[str]:
     if header.get("skins"):
         yield "skinning is ignored: the mesh is taken as it is stored"
-    if any("targets" in p for mesh in header.get("meshes", []) for p in mesh["primitives"]):
+    if any("targets" in primitive for primitive in _primitives(header)):
         yield "morph targets are ignored: the mesh is taken as it is stored"
     if len(header.get("scenes", [])) > 1:
         yield f"it has {len(header['scenes'])} scenes: only its default one is read"
