@@ -104,7 +104,7 @@ def run_started(run: Run) -> None:
 
 @hookspec
 def stage_finished(run: Run, stage: str, name: str, value: object, seconds: float) -> None:
-    """A stage returned `value`; `stage` is load, segment, joints, modify, check, preview or export."""
+    """A stage returned `value`; `stage` is load, segment, spec, joints, modify, check, preview or export."""
 
 
 @hookspec

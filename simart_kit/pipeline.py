@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,7 +16,7 @@ from .asset_io import save_asset
 from .beside import Beside, begun_by, modify_by
 from .checks import run_checks
 from .checks.subject import Subject
-from .errors import SimartKitError, StageError
+from .errors import StageError
 from .exports import export_all
 from .loading import Source, read_source, source_path
 from .mesh import Mesh, Note, UpAxis
@@ -34,11 +34,20 @@ from .spec.reading import read_spec
 from .spec.shaping import with_parts
 from .spec.values import Spec
 from .spec.verdicts import with_verdicts
-from .stages import JointPredictor, Modifier, Prediction, Segmentation, Segmenter
+from .stages import Check, JointPredictor, Modifier, Prediction, Segmentation, Segmenter
+from .told_materials import as_told
 
 # A process beside this one saves more than its start takes if it is there while a file of so many bytes is
 # read, or for so many faces, where they are in files beside that one.
 _LARGE, _MANY = 5_000, 5_000
+# What observers are told that failed, by the kind of stage.
+_STAGES = {
+    "segmenter": "segment",
+    "joint predictor": "joints",
+    "modifier": "modify",
+    "exporter": "export",
+    "check": "check",
+}
 
 
 @dataclass(frozen=True)
@@ -101,6 +110,7 @@ def convert(
     name = clean_name(name or path.stem, "asset")
     resolved = load_recipe(recipe, plugins, [*sets, *_scale_sets(height, scale)])
     check_extras(resolved.uses(), plugins)
+    judges = build_checks(resolved, plugins)
     wishes = None if spec is None else read_spec(spec)
     folder = Path(out) if out is not None else Path("out") / name
 
@@ -114,7 +124,7 @@ def convert(
                 asset = _articulate(runner, plugins, resolved, loaded, segmentation, name, floating, wishes)
                 asset, picture = _modify(runner, plugins, resolved, asset, loaded.stated is not None, beside)
                 asset = asset if wishes is None else with_verdicts(asset, wishes)
-                report, mains = _write(runner, plugins, resolved, asset, picture, beside)
+                report, mains = _write(runner, plugins, resolved, judges, asset, picture, beside)
         arguments: dict[str, Any] = {"name": name, "up": up, "unit": unit, "floating": floating}
         arguments["spec"] = None if wishes is None else wishes.table()
         return _finish(runner, plugins, loaded, report, mains, folder, arguments)
@@ -140,7 +150,9 @@ def _segment(
     else:
         stage, registration = build(recipe.segmenter, Segmenter, plugins, recipe.seed)
         found = runner.stage("segment", registration, segmented, loaded.mesh)
-    return found if spec is None else runner.call("spec", "parts", with_parts, found, loaded.mesh, spec)
+    if spec is not None:
+        found = runner.call("spec", "parts", with_parts, found, loaded.mesh, spec)
+    return as_told(found, loaded.mesh)
 
 
 def _articulate(
@@ -182,7 +194,9 @@ def _modify(
             kept.append(use)
             continue
         if stage.corrects_joints and not ahead:
-            stages, ahead = [(u, _ahead(s, r, asset, beside), r) for u, s, r in stages], True
+            # Another process may begin these while others correct joints.
+            stages = [(u, runner.attempt("modify", r, _begun, asset, s, beside), r) for u, s, r in stages]
+            ahead = True
         elif not stage.corrects_joints and not leaving and beside.helps:
             picture = begun(asset, _preview(runner), beside)
         asset = runner.stage("modify", registration, _modified, asset, stage, beside)
@@ -190,12 +204,8 @@ def _modify(
     return asset.with_notes("load", "info", [text] if kept else []), picture
 
 
-def _ahead(modifier: Modifier, registration: Registration, asset: Asset, beside: Beside) -> Modifier:
-    """The modifier, which another process may begin while others correct joints."""
-    try:
-        return begun_by(modifier, asset, beside)
-    except Exception as cause:
-        raise registration.failure(cause) from cause
+def _begun(asset: Asset, modifier: Modifier, beside: Beside) -> Modifier:
+    return begun_by(modifier, asset, beside)
 
 
 def _preview(runner: Runner) -> Path:
@@ -210,7 +220,13 @@ def _modified(asset: Asset, modifier: Modifier, beside: Beside) -> Asset:
 
 
 def _write(
-    runner: Runner, plugins: Plugins, recipe: Recipe, asset: Asset, picture: Picture | None, beside: Beside
+    runner: Runner,
+    plugins: Plugins,
+    recipe: Recipe,
+    judges: Sequence[tuple[Check, Registration]],
+    asset: Asset,
+    picture: Picture | None,
+    beside: Beside,
 ) -> tuple[Report, dict[str, Path]]:
     work = runner.run.folder
     save_asset(asset, work)
@@ -220,7 +236,6 @@ def _write(
     else:
         runner.call("preview", "preview", render.write_preview, asset, _preview(runner))
     mains, unsupported = export_all(runner, plugins, recipe, asset)
-    judges = build_checks(recipe, plugins)
     checks = runner.call("check", "checks", run_checks, judges, Subject(mains, asset), beside)
     runner.settle()
     report = Report(runner.run.name, asset, checks, asset.notes + runner.notes, unsupported, runner.seconds)
@@ -280,6 +295,7 @@ def _failures_kept(runner: Runner, folder: Path) -> Iterator[None]:
     try:
         yield
     except StageError as error:
+        runner.failed(_STAGES[error.kind], error)  # of a stage that could not be made, nobody was told yet
         kept = runner.run.folder / "failed"
         kept.mkdir(exist_ok=True)
         (kept / "error.txt").write_text(traceback.format_exc(), encoding="utf-8")
@@ -289,9 +305,6 @@ def _failures_kept(runner: Runner, folder: Path) -> Iterator[None]:
         saved = "its input and the traceback are" if any(kept.glob("input*")) else "the traceback is"
         keep_failure(kept, folder)
         error.add_note(f"{saved} in {folder / 'failed'}")
-        raise
-    except SimartKitError as error:
-        runner.tell("run_failed", stage="load", error=error)
         raise
 
 

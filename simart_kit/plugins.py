@@ -129,7 +129,7 @@ class Plugins:
         commands_only: leave out what built-in plugins have besides commands, for a quick start.
 
     Attributes:
-        manager: the pluggy manager, for tests that register objects directly.
+        manager: the pluggy manager; objects are registered by `register`, which knows whose they are.
         failures: plugins that did not load.
     """
 

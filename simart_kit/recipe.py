@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Literal, TypeVar
@@ -143,7 +144,7 @@ def build(use: Use, base: type[S], plugins: Plugins, seed: int) -> tuple[S, Regi
         if issubclass(stage_class, Composed):
             return stage_class(options, seed=seed, plugins=plugins), registration
         return stage_class(options, seed=seed), registration
-    except Exception as cause:
+    except (Exception, SystemExit) as cause:
         raise registration.failure(cause) from cause
 
 
@@ -186,9 +187,13 @@ def _stage_mistakes(table: Mapping[str, Any], plugins: Plugins) -> tuple[list[st
     thresholds = table.get("checks", {})
     for name, options in thresholds.items() if isinstance(thresholds, Mapping) else ():
         uses.append(("checks", {"use": name, "options": {} if options is False else options}, Check.kind))
-    for key, use, kind in uses:
-        if not isinstance(use, Mapping) or not isinstance(use.get("use"), str):
-            continue  # told already by the recipe's own check
+    # The recipe's own check has told of the others.
+    stages = [
+        (key, use, kind)
+        for key, use, kind in uses
+        if isinstance(use, Mapping) and isinstance(use.get("use"), str)
+    ]
+    for key, use, kind in stages:
         try:
             stage: type[Stage] = plugins.find(kind, use["use"]).value
             if isinstance(use.get("options", {}), Mapping):
@@ -202,6 +207,9 @@ def _stage_mistakes(table: Mapping[str, Any], plugins: Plugins) -> tuple[list[st
             # The thresholds of a check are its table; other stages have theirs in `options`.
             inside = () if key == "checks" else ("options",)
             mistakes += _option_mistakes((_place(key, use), *inside), stage, error)
+    formats = Counter(use["use"] for key, use, _ in stages if key == "export")
+    twice = [name for name, times in formats.items() if times > 1]
+    mistakes += [f"export.{name}: it is listed twice, and its files would be at one place" for name in twice]
     return mistakes, failed
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 from .assemble import Articulation
 from .asset_io import save_value
-from .errors import StageError
+from .errors import SimartKitError, StageError
 from .mesh import Note
 from .plugins import Plugins, Registration
 from .stages import Segmentation
@@ -63,17 +63,15 @@ class Runner:
         self.notes: tuple[Note, ...] = ()
         self._plugins = plugins
         self._begun: Callable[[], object] | None = None
+        self._told: SimartKitError | None = None
 
     def call(self, stage: str, name: str, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
-        """Run a step of the core's own; its errors pass through.
-
-        Observers are told of a check that failed in it.
-        """
+        """Run a step of the core's own; its errors pass through, once observers are told of them."""
         start = time.perf_counter()
         try:
             value = function(*args, **kwargs)
-        except StageError as error:
-            self._failed(stage, error)
+        except SimartKitError as error:
+            self.failed(stage, error)
             raise
         self._finished(stage, name, value, time.perf_counter() - start)
         return value
@@ -102,22 +100,44 @@ class Runner:
         *args: P.args,
         **kwargs: P.kwargs,
     ) -> T:
-        """Run a plugin's step; whatever it raises becomes a StageError that names it.
-
-        The first argument is saved when the step fails, as `failed/input`.
-        """
+        """Run a plugin's step; see `attempt`."""
         start = time.perf_counter()
-        try:
-            with time_limit(self.run.recipe.stage_timeout):
-                value = function(*args, **kwargs)
-        except (Exception, SystemExit) as cause:
-            error = registration.failure(cause)
-            self._failed(stage, error)
-            self._save(args[0], error)
-            raise error from cause
+        value = self.attempt(stage, registration, function, *args, **kwargs)
         self.used += (registration,)
         self._finished(stage, registration.name, value, time.perf_counter() - start)
         return value
+
+    def attempt(
+        self,
+        stage: str,
+        registration: Registration,
+        function: Callable[P, T],
+        *args: P.args,
+        **kwargs: P.kwargs,
+    ) -> T:
+        """Call what a plugin wrote; whatever it raises becomes a StageError that names it.
+
+        The first argument is saved when it fails, as `failed/input`.
+        """
+        try:
+            with time_limit(self.run.recipe.stage_timeout):
+                return function(*args, **kwargs)
+        except (Exception, SystemExit) as cause:
+            error = registration.failure(cause)
+            self.failed(stage, error)
+            self._save(args[0], error)
+            raise error from cause
+
+    def failed(self, stage: str, error: SimartKitError) -> None:
+        """Tell observers, once, when what was begun has come to its end; that must not hide the failure."""
+        if error is self._told:
+            return
+        self._told = error
+        try:
+            self.settle()
+        except Exception as another:
+            error.add_note(f"what went on beside it failed too: {another}")
+        self.tell("run_failed", stage=stage, error=error)
 
     def tell(self, hook: str, **arguments: object) -> None:
         """Call an observer hook; an observer that fails is noted and the others still hear."""
@@ -131,14 +151,6 @@ class Runner:
             save_value(value, self.run.folder / "failed" / "input")
         except Exception as unsaved:
             error.add_note(f"its input could not be saved: {unsaved}")
-
-    def _failed(self, stage: str, error: StageError) -> None:
-        """Tell observers, once what was begun has come to its end; that must not hide the failure."""
-        try:
-            self.settle()
-        except Exception as another:
-            error.add_note(f"what went on beside it failed too: {another}")
-        self.tell("run_failed", stage=stage, error=error)
 
     def _finished(self, stage: str, name: str, value: object, seconds: float) -> None:
         self.seconds += ((stage, name, seconds),)

@@ -84,6 +84,8 @@ class PartGuess:
         score: 0..1.
         description: for people.
         mass: what a file or a person says that it weighs [kg], above 0; None where nobody does.
+        material_stated: whether a model that looks at the object, or a person, states the material; else it
+            is a guess, before which goes what the mesh's file calls its materials.
     """
 
     name: str
@@ -92,6 +94,7 @@ class PartGuess:
     score: float = 1.0
     description: str = ""
     mass: float | None = None
+    material_stated: bool = False
 
 
 @dataclass(frozen=True, eq=False)

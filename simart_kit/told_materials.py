@@ -27,9 +27,9 @@ _IDLE = frozenset(["m", "mi", "mt", "mtl", "mat", "material", "materials", "shad
 
 
 def as_told(found: Segmentation, given: Mesh) -> Segmentation:
-    """A segmentation with the materials that the file of the `given` mesh tells; the others stay."""
-    mesh = found.mesh_of(given)
-    told = told_materials(mesh, found.face_part)
+    """A segmentation with the materials that the file of the `given` mesh tells; those stated stay."""
+    telling = told_materials(found.mesh_of(given), found.face_part)
+    told = {part: material for part, material in telling.items() if not found.parts[part].material_stated}
     if not told:
         return found
     parts = tuple(replace(p, material=told.get(k, p.material)) for k, p in enumerate(found.parts))

@@ -93,6 +93,10 @@ def test_nothing_begins_early_on_one_core(shop: Workshop, monkeypatch: pytest.Mo
 def test_one_that_cannot_begin_is_named(shop: Workshop) -> None:
     with pytest.raises(StageError, match=r"modifier 'shapes' failed .*ZeroDivisionError"):
         ran(shop, "joints", "shapes", begin_fails=True)
+    assert [joint.name for joint in sk.load_asset(shop.out / "failed" / "input").joints] == [
+        "door_hinge",
+        "drawer_slide",
+    ]
 
 
 def tower(boxes: int = 9) -> sk.Asset:

@@ -9,7 +9,7 @@ import pytest
 
 import simart_kit as sk
 from simart_kit.beside import Beside
-from simart_kit.errors import BadInputError, OutputError, StageError
+from simart_kit.errors import AmbiguousPluginError, BadInputError, OutputError, StageError
 from simart_kit.pipeline import convert
 from simart_kit.testing import fakes
 
@@ -99,10 +99,32 @@ def test_a_failing_stage_is_named_and_its_input_kept_and_nothing_else_written(
 
 
 def test_a_stage_whose_constructor_fails_is_named_too(shop):
+    heard = Heard()
     with pytest.raises(StageError, match=r"modifier 'fake_note' failed .*FileNotFoundError: weights.bin"):
-        shop.run("modify.fake_note.options.fault=constructor")
+        shop.run("modify.fake_note.options.fault=constructor", observers=(Camera(), heard))
 
-    assert "error.txt" in contents(shop.out / "failed")
+    assert heard.told == ["load fake", "segment fake_labels", "joints fake_joints", "modify failed"]
+    assert set(contents(shop.out / "failed")) == {"error.txt", "cupboard.rrd"}
+
+
+def test_a_spec_that_does_not_fit_is_told_as_what_failed(shop):
+    heard = Heard()
+    spec = {"schema": 1, "parts": [{"name": "lid", "found_as": "hat"}]}
+    with pytest.raises(sk.BadInputError, match="hat"):
+        convert(shop.source, shop.recipe, out=shop.out, spec=spec, plugins=shop.plugins(heard))
+
+    assert heard.told == ["load fake", "segment fake_labels", "spec failed"]
+    assert not shop.out.exists()
+
+
+def test_two_checks_of_one_name_are_told_before_anything_is_done(shop):
+    heard = Heard()
+    two = tuple(fakes.plugin(check=fakes.check(name="same")) for _ in range(2))
+    with pytest.raises(AmbiguousPluginError, match="check 'same' is registered by"):
+        shop.run(observers=(*two, heard))
+
+    assert heard.told == []
+    assert not shop.out.exists()
 
 
 def test_the_input_of_a_failed_modifier_opens_as_an_asset(shop):

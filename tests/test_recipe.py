@@ -217,6 +217,12 @@ def test_a_plugin_cannot_replace_a_packaged_recipe(write, plugins):
     assert known_recipes(plugins)["default"] == packaged_recipes()["default"]
 
 
+def test_an_exporter_listed_twice_is_told_before_anything_runs(write, plugins):
+    path = write("twice.toml", BASE + BASE[BASE.index("[[export]]") :])
+    with pytest.raises(RecipeError, match="listed twice"):
+        load_recipe(path, plugins)
+
+
 def test_two_plugins_with_one_recipe_name_conflict_when_it_is_used(write, plugins):
     for owner in ("first", "second"):
         plugins.register(Ships(shared=write(f"{owner}.toml", BASE)), Owner(owner, owner, "1"))

@@ -95,18 +95,38 @@ def test_the_others_keep_what_was_guessed_and_a_note_says_what_was_told():
     assert as_told(found, _of("white", "grey")) is found
 
 
+def test_what_a_model_or_a_person_states_stays():
+    mesh, faces = _of("chrome", "pine"), np.repeat([0, 1], 12).astype(np.int32)
+    stated = PartGuess("body", material="plastic", material_stated=True)
+    result = as_told(Segmentation(faces, (stated, PartGuess("door", material="mdf"))), mesh)
+    assert [part.material for part in result.parts] == ["plastic", "wood"]
+
+
+def _saved(mesh, names, folder):
+    """An OBJ of boxes, each of a material of its name."""
+    lines = ["mtllib of.mtl", *(f"v {x} {y} {z}" for x, y, z in mesh.vertices.tolist())]
+    for number, (a, b, c) in enumerate((mesh.faces + 1).tolist()):
+        lines += [f"usemtl {names[number // 12]}"] if number % 12 == 0 else []
+        lines.append(f"f {a} {b} {c}")
+    (folder / "boxes.obj").write_text("\n".join(lines) + "\n")
+    looks = [f"newmtl {name}\nKd 0.5 0.5 0.5" for name in dict.fromkeys(names)]
+    (folder / "of.mtl").write_text("\n".join(looks) + "\n")
+    return folder / "boxes.obj"
+
+
+def test_a_part_that_a_spec_makes_is_of_what_the_file_tells_of_it(tmp_path):
+    path = _saved(boxes_mesh([_BIG, _LEFT]), ["Steel", "Tempered_Glass"], tmp_path)
+    lid = {"name": "lid", "points": [[20.0, 0.5, 0.5]], "joint": "prismatic", "axis": "up"}
+    spec = {"schema": 1, "coordinates": "m", "parts": [lid]}
+    result = convert(path, "geometric", out=tmp_path / "out", up="+z", record=False, spec=spec)
+    assert {part.name: part.material.name for part in result.asset.parts} == {"body": "steel", "lid": "glass"}
+
+
 @pytest.mark.parametrize("recipe", ["geometric", "nano"])
 def test_a_cabinet_is_of_what_its_file_tells(tmp_path, recipe):
-    boxes = cabinet_with_door("left")
-    mesh = boxes_mesh(boxes)
     names = ["Walnut"] * 5 + ["Tempered_Glass", "brass"]
-    lines = [f"v {x} {y} {z}" for x, y, z in mesh.vertices.tolist()]
-    for number, face in enumerate((mesh.faces + 1).tolist()):
-        lines += [f"usemtl {names[number // 12]}"] if number % 12 == 0 else []
-        lines.append("f {} {} {}".format(*face))
-    (tmp_path / "cabinet.obj").write_text("mtllib cabinet.mtl\n" + "\n".join(lines) + "\n")
-    looks = [f"newmtl {name}\nKd 0.5 0.5 0.5" for name in dict.fromkeys(names)]
-    (tmp_path / "cabinet.mtl").write_text("\n".join(looks) + "\n")
-    result = convert(tmp_path / "cabinet.obj", recipe, out=tmp_path / "out", up="+z", record=False)
+    path = _saved(boxes_mesh(cabinet_with_door("left")), names, tmp_path)
+    result = convert(path, recipe, out=tmp_path / "out", up="+z", record=False)
     assert {part.name: part.material.name for part in result.asset.parts} == {"body": "wood", "door": "glass"}
-    assert "materials as the file tells: body wood, door glass" in {note.text for note in result.report.notes}
+    notes = {note.text for note in result.report.notes}
+    assert "materials as the file tells: body wood, door glass" in notes

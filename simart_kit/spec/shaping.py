@@ -179,9 +179,9 @@ class _Drawing:
     def _new(self, name: str, faces: BoolArray) -> int:
         """A new part, of what most of it was taken for so far."""
         areas = np.bincount(self._label[faces], self._mesh.face_areas[faces], minlength=1)
-        material = self._guesses[int(areas.argmax())].material
-        things = name_words(name)[0]
-        self._guesses.append(PartGuess(name, label=things[-1] if things else "", material=material))
+        most, things = self._guesses[int(areas.argmax())], name_words(name)[0]
+        label = things[-1] if things else ""
+        self._guesses.append(PartGuess(name, label, most.material, material_stated=most.material_stated))
         self._place[name] = len(self._guesses) - 1
         return self._place[name]
 

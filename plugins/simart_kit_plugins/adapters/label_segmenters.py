@@ -57,8 +57,6 @@ class LabelFiles(Segmenter):
         Raises:
             BadInputError: no file is named, it is damaged, or its labels fit neither mesh nor one beside.
         """
-        from simart_kit.told_materials import as_told
-
         path, notes = self._file(), list[str]()
         labels = read_labels(path)
         other = self._other_mesh(path, labels, mesh)
@@ -73,12 +71,11 @@ class LabelFiles(Segmenter):
             notes.append(f"{missing} of {len(labels)} faces had no label: they take that of their neighbours")
         used, face_part = np.unique(labels, return_inverse=True)
         notes.insert(0, f"{len(used)} parts of {path.name}")
-        found = Segmentation(
+        return Segmentation(
             frozen_ints(face_part),
             tuple(PartGuess(f"part_{label}") for label in used),
             notes=tuple(Note("segment", "info", text) for text in notes),
         )
-        return as_told(found, mesh)
 
     def _file(self) -> Path:
         """The file with the labels."""

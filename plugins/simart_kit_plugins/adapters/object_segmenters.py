@@ -42,8 +42,6 @@ class ObjectFiles(Segmenter):
         Raises:
             BadInputError: no file is named, it is damaged, or it is of another mesh.
         """
-        from simart_kit.told_materials import as_told
-
         path = self._path()
         try:
             there, notes = self._placed(path, mesh)
@@ -59,7 +57,7 @@ class ObjectFiles(Segmenter):
             texts.append(
                 f"{missing} of {len(mesh.faces)} faces are of no part: they go with their neighbours"
             )
-        result = Segmentation(
+        return Segmentation(
             found.face_part,
             found.parts,
             joints=found.hints,
@@ -68,7 +66,6 @@ class ObjectFiles(Segmenter):
                 *(Note("segment", "warning", text) for text in found.notes),
             ),
         )
-        return as_told(result, mesh)
 
     @abstractmethod
     def _path(self) -> Path:

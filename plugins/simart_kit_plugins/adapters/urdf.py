@@ -21,7 +21,6 @@ from simart_kit.bench.formats.urdf import PARTNET_FILE
 from simart_kit.bench.formats.urdf_tree import read_tree
 from simart_kit.bench.formats.xml_files import numbers, read_xml
 from simart_kit.kinematics import turned_about
-from simart_kit.told_materials import as_told
 
 from ..loaders.guards import reading
 from ..loaders.pieces import Piece, bounded, joined
@@ -60,14 +59,13 @@ def _read(path: Path) -> Segmentation:
     weights, doubts = _masses(elements, found)
     drives = {element.get("name", ""): element for element in robot.findall("joint")}
     texts = [*notes, *found.notes, *doubts, *_mimics(drives)]
-    result = Segmentation(
+    return Segmentation(
         found.face_part,
         tuple(replace(part, mass=weights.get(i)) for part, i in zip(found.parts, found.places, strict=True)),
         joints=_driven(found, drives),
         notes=tuple(Note("load", "warning", text) for text in texts),
         mesh=mesh,
     )
-    return as_told(result, mesh)
 
 
 def _at_rest(links: tuple[Link, ...]) -> tuple[tuple[Link, ...], FloatArray, list[str]]:

@@ -38,10 +38,8 @@ class Geometric(Segmenter):
         return self._segmented(mesh, spec)
 
     def _segmented(self, mesh: Mesh, spec: Spec | None) -> Segmentation:
-        from simart_kit.told_materials import as_told
-
         from .parts import parts_of
 
         options = self.options
         crease = float(np.deg2rad(options.crease))
-        return as_told(parts_of(mesh, spec, options.max_parts, crease, options.node_hint), mesh)
+        return parts_of(mesh, spec, options.max_parts, crease, options.node_hint)

@@ -100,6 +100,7 @@ def guesses(links: Sequence[Link]) -> tuple[PartGuess, ...]:
             material=link.material,
             score=link.score,
             description=f"pieces {', '.join(map(str, link.pieces))}",
+            material_stated=True,
         )
         for link in links
     )

@@ -45,8 +45,6 @@ class P3Sam(Segmenter):
             BadInputError: P3-SAM is not where options or variables say, and the cache has no answer.
             WorkerError: P3-SAM failed, took too long, or its answer makes no sense.
         """
-        from simart_kit.told_materials import as_told
-
         from ..adapters.laying import filled
         from ..workers.asking import answer
         from ..workers.caching import AnswerCache, answer_key, cache_folder
@@ -68,13 +66,12 @@ class P3Sam(Segmenter):
         pieces = _by_area(filled(labels, mesh) if (labels >= 0).any() else labels, mesh.face_areas)
         kept = np.where(pieces < options.max_parts, pieces, -1)
         face_part = _by_area(filled(kept, mesh), mesh.face_areas)
-        found = Segmentation(
+        return Segmentation(
             frozen_ints(face_part),
             tuple(_guess(number) for number in range(int(face_part.max()) + 1)),
             face_segment=frozen_ints(pieces),
             notes=_notes(mesh, labels, int(pieces.max()) + 1, options.max_parts, key),
         )
-        return as_told(found, mesh)
 
 
 def _by_area(labels: IntArray, areas: FloatArray) -> IntArray:

@@ -68,7 +68,7 @@ class Tokens(Segmenter):
         parts = [file.parts[part] for part in labels.kept]
         return Segmentation(
             labels.face_part,
-            tuple(PartGuess(part.name, part.label, part.material) for part in parts),
+            tuple(PartGuess(part.name, part.label, part.material, material_stated=True) for part in parts),
             face_segment=labels.segments.face_segment,
             notes=(*_notes(path, loaded, file, decoded), *labels.notes),
             evidence=evidence(file, decoded, labels.moved),

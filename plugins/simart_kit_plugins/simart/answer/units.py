@@ -131,6 +131,7 @@ def guesses_of(answer: ObjectAnswer) -> tuple[PartGuess, ...]:
             label=_label(part.name),
             material=material_of(part.material, part.density),
             description=part.name,
+            material_stated=True,
         )
         for name, part in zip(names, answer.parts, strict=True)
     )
