@@ -107,6 +107,11 @@ class Joint:
         return self.kind != "fixed"
 
     @property
+    def rigid(self) -> bool:
+        """Whether it cannot move: fixed, or without travel, which loaders refuse as a range."""
+        return self.kind == "fixed" or (self.limits is not None and self.limits.lower == self.limits.upper)
+
+    @property
     def turns(self) -> bool:
         """Whether its position is an angle about `axis`."""
         return self.kind in ("revolute", "continuous")

@@ -82,10 +82,10 @@ def carved(shape: ConvexMesh, other: ConvexMesh, clearance: float = CLEARANCE) -
     return tuple(_fitted(piece) for piece in around if volume(piece) > least)
 
 
-def trimmed(shape: ConvexMesh, other: ConvexMesh, clearance: float = CLEARANCE) -> tuple[ConvexMesh, ...]:
+def trimmed(shape: ConvexMesh, other: ConvexMesh) -> tuple[ConvexMesh, ...]:
     """What is left of a shape by the one cut that parts it from another and leaves most; may be nothing."""
     normals, ends = _planes(other)
-    left = _single(shape, normals, ends + clearance)
+    left = _single(shape, normals, ends + CLEARANCE)
     return () if left is None else (_fitted(left),)
 
 

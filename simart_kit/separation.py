@@ -55,14 +55,9 @@ class Overlap:
     depth: float
 
 
-def still(joint: Joint) -> bool:
-    """Whether a joint cannot move: fixed, or without travel."""
-    return joint.kind == "fixed" or (joint.limits is not None and span(joint) == (0.0, 0.0))
-
-
 def rigid_bodies(asset: Asset) -> IntArray:
     """(P,) label of each part; parts have the same one when no joint lets them move against each other."""
-    ends = [(asset.part_index(j.parent), asset.part_index(j.child)) for j in asset.joints if still(j)]
+    ends = [(asset.part_index(j.parent), asset.part_index(j.child)) for j in asset.joints if j.rigid]
     one, two = np.array(ends, dtype=np.int64).reshape(-1, 2).T
     return connected(len(asset.parts), one, two)
 
@@ -236,7 +231,7 @@ def _stops(ends: tuple[float, float], shares: Sequence[float]) -> list[float]:
     return sorted({0.0, *near, *np.linspace(*ends, _STOPS).tolist()})
 
 
-def separated(asset: Asset, margin: float, clearance: float = CLEARANCE) -> Asset:
+def separated(asset: Asset, margin: float) -> Asset:
     """The asset with shapes pulled in on the sides where they meet another rigid body's at rest.
 
     Both of a pair give way alike, each by `margin` and a quarter of its extent at most. A pair that this does
@@ -245,13 +240,12 @@ def separated(asset: Asset, margin: float, clearance: float = CLEARANCE) -> Asse
     Args:
         asset: with collision shapes.
         margin: most that a shape loses on a side for one neighbour [m].
-        clearance: how far apart they are to be [m].
     """
     shapes = _shapes(asset.parts)
-    for (one, i), (other, j) in _near(shapes, rigid_bodies(asset), clearance):
+    for (one, i), (other, j) in _near(shapes, rigid_bodies(asset), CLEARANCE):
         first, second = shapes[one][i], shapes[other][j]
         apart, axis = gap(first, second)
-        pulls = _pulls(first.shape, second.shape, axis, clearance - apart, margin)
+        pulls = _pulls(first.shape, second.shape, axis, CLEARANCE - apart, margin)
         if pulls is not None:
             shapes[one][i] = convex(pulled_in(first.shape, axis, pulls[0]))
             shapes[other][j] = convex(pulled_in(second.shape, -axis, pulls[1]))

@@ -125,6 +125,12 @@ def test_what_cannot_turn_round_turns_between_limits() -> None:
     assert joint.limits.lower == pytest.approx(-np.pi)
 
 
+def test_a_joint_without_travel_stays_as_it_is() -> None:
+    """`sweep` leaves such where `stuck` is "flag"."""
+    asset = assembled([slide("drawer", 0.3), slide("lock", 0.0)], drawer=DRAWER, lock=wall(0.4))
+    assert Clear().modify(asset).joints == asset.joints
+
+
 def test_parts_without_shapes_are_left_alone() -> None:
     asset = assembled([slide("drawer", 0.3)], drawer=DRAWER)
     bare = asset.with_parts({"drawer": sk.Part("drawer")})

@@ -4,16 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from simart_kit.asset import Joint
 from simart_kit.bake import loses_colors
 from simart_kit.surfaces import Surface
 
 from .sheets import backed, is_speck
-
-
-def rigid(joint: Joint) -> bool:
-    """Whether a joint cannot move: fixed, or without travel, which loaders refuse as a range."""
-    return joint.kind == "fixed" or (joint.limits is not None and joint.limits.lower == joint.limits.upper)
 
 
 def joined(found: Iterable[tuple[str, Sequence[str]]]) -> tuple[str, ...]:

@@ -12,8 +12,6 @@ from simart_kit.asset import Asset, Joint, MassProperties
 from simart_kit.kinematics import ordered_joints, rest_origin
 from simart_kit.mujoco_joints import STIFF_FRICTION, STIFF_LIMIT, joint_type
 
-from .gaps import rigid
-
 if TYPE_CHECKING:
     import mujoco
 
@@ -41,7 +39,7 @@ def add_bodies(
         body = parent.add_body(name=names[joint.child], pos=np.array(joint.origin) - parent_origin)
         if loose:
             body.add_freejoint(name=joint.name)
-        elif joint.kind != "free" and not rigid(joint):
+        elif joint.kind != "free" and not joint.rigid:
             _add_joint(body, joint)
         bodies[joint.child] = body
     return {part.name: bodies[part.name] for part in asset.parts}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from simart_kit.asset import Asset
 from simart_kit.surfaces import asset_surfaces
 
-from .gaps import joined, look_gaps, rigid
+from .gaps import joined, look_gaps
 from .mjcf_flavors import Flavor
 from .mjcf_robosuite import body_names
 from .overlaps import overlapping_parts, told
@@ -13,13 +13,13 @@ from .overlaps import overlapping_parts, told
 
 def gaps(asset: Asset, flavor: Flavor) -> tuple[str, ...]:
     """A sentence for each thing that is lost."""
-    moving = [j for j in asset.joints if not rigid(j)]
+    moving = [j for j in asset.joints if not j.rigid]
     groups = asset_surfaces(asset)
     found = (
         ("MJCF has no speed limit of joints: none for", [j.name for j in moving if j.kind != "free"]),
         (
             "a joint without travel is written as fixed",
-            [j.name for j in asset.joints if rigid(j) and j.moves],
+            [j.name for j in asset.joints if j.rigid and j.moves],
         ),
         (
             "no mass is known: MuJoCo takes it from the shapes at 1000 kg/m^3",

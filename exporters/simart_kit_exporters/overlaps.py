@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from simart_kit.asset import Asset
 from simart_kit.kept import kept
 from simart_kit.separation import Overlap as Met
-from simart_kit.separation import overlaps, overlaps_on_the_way, rigid_bodies, still, stopped_by_shapes
+from simart_kit.separation import overlaps, overlaps_on_the_way, rigid_bodies, stopped_by_shapes
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def _with_rest(asset: Asset, on_the_way: tuple[Met, ...]) -> dict[tuple[str, str
 def _passing(asset: Asset, body: Mapping[str, int]) -> set[frozenset[int]]:
     """Rigid bodies that MuJoCo lets pass: one and what it moves on, unless that is fixed to the world."""
     fixed = None if asset.floating else body[asset.root.name]
-    joints = [j for j in asset.joints if j.kind != "free" and not still(j)]
+    joints = [j for j in asset.joints if j.kind != "free" and not j.rigid]
     return {frozenset((body[j.parent], body[j.child])) for j in joints if body[j.parent] != fixed}
 
 

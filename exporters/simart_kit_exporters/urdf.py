@@ -21,7 +21,7 @@ from simart_kit.stages import Exporter
 from simart_kit.stages import Options as StageOptions
 from simart_kit.surfaces import asset_surfaces
 
-from .gaps import joined, look_gaps, rigid
+from .gaps import joined, look_gaps
 from .urdf_links import MeshFolder, add_gazebo, add_link
 from .urdf_text import numbers, write_xml
 
@@ -80,7 +80,7 @@ class Urdf(Exporter):
             ),
             (
                 "a joint without travel is written as fixed",
-                [j.name for j in joints if rigid(j) and j.moves],
+                [j.name for j in joints if j.rigid and j.moves],
             ),
             (
                 "dry friction is left out (option dynamics_friction)",
@@ -88,7 +88,7 @@ class Urdf(Exporter):
             ),
             (
                 "URDF has no place for the inertia that solvers add (armature): none for",
-                [j.name for j in joints if not rigid(j) and j.armature],
+                [j.name for j in joints if not j.rigid and j.armature],
             ),
             (
                 "no mass is known: <inertial> is left out, and MuJoCo refuses the file where the part moves",
@@ -107,7 +107,7 @@ class Urdf(Exporter):
 
 
 def _add_joint(robot: Element, joint: Joint, parent_origin: FloatArray, friction: bool) -> None:
-    kind = "fixed" if rigid(joint) or joint.kind in ("ball", "free") else joint.kind
+    kind = "fixed" if joint.rigid or joint.kind in ("ball", "free") else joint.kind
     element = SubElement(robot, "joint", {"name": joint.name, "type": kind})
     SubElement(element, "origin", {"xyz": numbers(*(np.array(joint.origin) - parent_origin)), "rpy": "0 0 0"})
     SubElement(element, "parent", {"link": joint.parent})

@@ -97,7 +97,7 @@ class Agreement(Check):
             yield from self._poses(one, other, common)
 
     def _travel(self, link: Link, its: Link) -> str:
-        if its.kind == "fixed" and (_rigid(link) or link.kind in _NOT_EVERYWHERE):
+        if its.kind == "fixed" and (link.rigid or link.kind in _NOT_EVERYWHERE):
             return ""
         if its.kind != link.kind:
             return f"is {its.kind} instead of {link.kind}"
@@ -124,11 +124,6 @@ class Agreement(Check):
 
 def _carrier(links: Mapping[str, Link], name: str) -> str:
     return links[name].parent if name in links else "nothing"
-
-
-def _rigid(link: Link) -> bool:
-    """Whether a joint cannot move: formats write one without travel as fixed."""
-    return link.kind == "fixed" or (link.lower is not None and link.lower == link.upper)
 
 
 def _near(one: float | None, other: float | None, tolerance: float) -> bool:

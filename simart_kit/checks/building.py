@@ -37,7 +37,7 @@ def spec_of(mechanism: Mechanism) -> mujoco.MjSpec:
         origins[name] = np.array(link.origin if link else (0.0, 0.0, 0.0))
         made[name] = made[parent].add_body(name=name, pos=origins[name] - origins[parent])
         _fill(spec, made[name], source, origins[name])
-        if link and link.kind not in ("fixed", "free"):
+        if link and link.kind != "free" and not link.rigid:
             _add_joint(made[name], link)
     for pair in mechanism.excluded:
         one, *other = sorted(pair)

@@ -62,6 +62,11 @@ class Link:
     friction: float = 0.0
     armature: float = 0.0
 
+    @property
+    def rigid(self) -> bool:
+        """Whether it cannot move: formats write a joint without travel as fixed."""
+        return self.kind == "fixed" or (self.lower is not None and self.lower == self.upper)
+
 
 @dataclass(frozen=True, eq=False)
 class Mechanism:
