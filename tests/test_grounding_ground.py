@@ -245,3 +245,16 @@ def test_a_submesh_keeps_order_looks_and_only_its_vertices():
     assert len(part.vertices) == 16  # two boxes
     np.testing.assert_array_equal(part.triangles, mesh.triangles[84:])
     assert part.materials == mesh.materials
+
+
+def test_parts_that_a_file_states_are_those_that_are_compared(tmp_path):
+    box = '<visual><geometry><box size="1 1 {}"/></geometry></visual>'
+    (tmp_path / "visor.urdf").write_text(
+        f'<robot name="helmet"><link name="base">{box.format(1)}</link><link name="visor">{box.format(0.1)}'
+        '</link><joint name="pivot" type="revolute"><parent link="base"/><child link="visor"/>'
+        '<origin xyz="0 0 0.6"/><axis xyz="0 1 0"/><limit lower="0" upper="1" effort="1" velocity="1"/>'
+        "</joint></robot>"
+    )
+    found = sk.ground(tmp_path / "visor.urdf", "the visor", "geometric")
+    assert np.flatnonzero(found.grounded.faces).tolist() == list(range(12, 24))
+    assert {candidate.name for candidate in found.grounded.candidates} == {"base", "visor"}
