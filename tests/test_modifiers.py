@@ -22,6 +22,7 @@ from simart_kit.checks.subject import Subject
 from simart_kit.hulls import volume
 from simart_kit.kinematics import forward, opened
 from simart_kit.materials import MATERIALS
+from simart_kit.physics import as_stated
 from simart_kit.testing.meshes import box, boxes_mesh, cabinet_asset, chain_asset, static_asset
 
 
@@ -68,6 +69,19 @@ class TestScale:
         after = rescaled(scaled(cabinet_asset(), 1e6))
         assert after.mesh.diagonal == pytest.approx(1.0)
         assert after.notes[0].level == "warning"
+
+    def test_primitives_and_stated_masses_stay_what_they_are(self) -> None:
+        body = Collision(Collision.Options(mode="box")).modify(Mass().modify(single((0, 0, 0), (1, 2, 3))))
+        part = replace(body.parts[0], stated_mass=4.5, mass=as_stated(body.parts[0].mass, 4.5))
+        after = scaled(replace(body, parts=(part,)), 2.0).parts[0]
+        (before,), (shape,) = part.collision, after.collision
+        assert shape.primitive.kind == before.primitive.kind == "box"
+        np.testing.assert_allclose(shape.primitive.size, 2 * np.array(before.primitive.size))
+        np.testing.assert_allclose(
+            shape.primitive.asset_T_shape[:3, 3], 2 * before.primitive.asset_T_shape[:3, 3]
+        )
+        assert after.mass.mass == 4.5
+        np.testing.assert_allclose(after.mass.inertia, 4 * np.array(part.mass.inertia))
 
     def test_height(self) -> None:
         after = rescaled(cabinet_asset(), height=1.6)

@@ -132,14 +132,25 @@ def scaled(asset: sk.Asset, factor: float) -> sk.Asset:
 
 
 def _part(part: Part, factor: float) -> Part:
-    shapes = tuple(ConvexMesh(shape.vertices * factor, shape.faces) for shape in part.collision)
-    return replace(part, collision=shapes, mass=_mass(part.mass, factor) if part.mass else None)
+    mass = _mass(part.mass, factor, part.stated_mass is not None) if part.mass else None
+    return replace(part, collision=tuple(_shape(shape, factor) for shape in part.collision), mass=mass)
 
 
-def _mass(mass: MassProperties, factor: float) -> MassProperties:
-    inertia: FloatArray = np.array(mass.inertia) * factor**5
+def _shape(shape: ConvexMesh, factor: float) -> ConvexMesh:
+    primitive = shape.primitive
+    if primitive is not None:
+        pose = np.array(primitive.asset_T_shape)
+        pose[:3, 3] *= factor
+        primitive = replace(primitive, size=vec3(np.array(primitive.size) * factor), asset_T_shape=pose)
+    return replace(shape, vertices=shape.vertices * factor, primitive=primitive)
+
+
+def _mass(mass: MassProperties, factor: float, stated: bool) -> MassProperties:
+    """Of a body of the same density, or of the same mass where that is stated."""
+    heavier = 1.0 if stated else factor**3
+    inertia: FloatArray = np.array(mass.inertia) * heavier * factor**2
     center = vec3(np.array(mass.center) * factor)
-    return replace(mass, mass=mass.mass * factor**3, center=center, inertia=mat3(inertia))
+    return replace(mass, mass=mass.mass * heavier, center=center, inertia=mat3(inertia))
 
 
 def _joint(joint: Joint, factor: float) -> Joint:
