@@ -238,7 +238,10 @@ class TestDrawers:
             )
 
     def test_the_surest_are_kept_when_there_are_too_many(self) -> None:
-        assert len(found(OPENING["dresser"], max_parts=2).joints) == 2
+        kept = found(OPENING["dresser"], max_parts=2)
+        assert len(kept.joints) == 2
+        warnings = [note.text for note in kept.segmentation.notes if note.level == "warning"]
+        assert warnings == ["1 more that seem to move stay with the body, as max_parts has it"]
 
 
 class TestRoundThings:

@@ -27,6 +27,7 @@ from simart_kit.kinematics import rotation
 from simart_kit.mesh import Mesh
 from simart_kit.recipe import read_options
 from simart_kit.segments import find_segments
+from simart_kit.spec.reading import read_spec
 from simart_kit.srgb import linear_to_srgb, srgb_to_linear
 from simart_kit.testing.meshes import boxes_mesh, cabinet_asset
 
@@ -321,6 +322,19 @@ def test_the_network_is_alone_where_geometry_is_asked_and_finds_nothing(monkeypa
     )
     Nano(read_options(Nano, {"model": "any", "pool": pool})).segment(asset.mesh)
     assert told == [alone]
+
+
+@pytest.mark.parametrize(("pool", "asked"), [(True, True), (False, False)])
+def test_a_spec_asks_geometry_for_more_only_where_it_is_pooled(monkeypatch, pool, asked):
+    Told(Oracle([0] * 5, False), KNOWN).stand_in(monkeypatch)
+    calls = []
+    monkeypatch.setattr(
+        "simart_kit_plugins.nano.proposals.of_geometry",
+        lambda mesh, seed, spec=None: calls.append(spec) or [],
+    )
+    wanted = read_spec({"schema": 1, "kinds": {"door": {"count": 3}}})
+    Nano(read_options(Nano, {"model": "any", "pool": pool})).segment_to(cabinet_asset().mesh, wanted)
+    assert (wanted in calls) == bool(calls) == asked
 
 
 @pytest.mark.parametrize(

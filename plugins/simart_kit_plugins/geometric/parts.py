@@ -67,7 +67,8 @@ def parts_of(mesh: Mesh, spec: Spec | None, max_parts: int, crease: float, node_
     seen = ~segments.aside
     ids, shown = without_gaps(piece[seen])
     scene = make_scene(mesh if seen.all() else submesh(mesh, seen), shown)
-    movers = _find(scene, segments, spec)[:max_parts]
+    found = _find(scene, segments, spec)
+    movers = found[:max_parts]
     face_part = np.zeros(len(mesh.faces), dtype=np.int32)
     for number, mover in enumerate(movers, start=1):
         face_part[np.isin(piece, ids[list(mover.pieces)])] = number
@@ -79,7 +80,7 @@ def parts_of(mesh: Mesh, spec: Spec | None, max_parts: int, crease: float, node_
         frozen_ints(face_part),
         tuple(guesses),
         face_segment=segments.face_segment,
-        notes=_notes(segments, movers),
+        notes=(*_notes(segments, movers), *_left(found[max_parts:])),
     )
 
 
@@ -141,6 +142,12 @@ def _notes(segments: Segments, movers: list[Mover]) -> tuple[Note, ...]:
         return notes
     text = "the surface is one fused skin, in which much that moves cannot be told apart: look at it"
     return (*notes, Note("segment", "warning", text))
+
+
+def _left(movers: list[Mover]) -> tuple[Note, ...]:
+    """That there are more than may be."""
+    text = f"{len(movers)} more that seem to move stay with the body, as max_parts has it"
+    return (Note("segment", "warning", text),) if movers else ()
 
 
 def _told(movers: list[Mover]) -> str:

@@ -160,11 +160,6 @@ def _by_area(labels: IntArray, areas: FloatArray) -> IntArray:
     return rank[which]
 
 
-def piece_areas(mesh: Mesh, piece: IntArray) -> FloatArray:
-    """(N,) area of each piece [m2]."""
-    return np.asarray(np.bincount(piece, mesh.face_areas, int(piece.max()) + 1))
-
-
 def faces_of(piece: IntArray, members: tuple[int, ...]) -> BoolArray:
     """(F,) whether each face is of one of some pieces."""
     return np.asarray(np.isin(piece, members))

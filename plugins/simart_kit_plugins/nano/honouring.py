@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -18,7 +18,7 @@ from simart_kit.spec.wishes import Wish, kind_of, wishes_of
 from .grouping import piece_parts
 from .pooling import pooled
 from .predicting import PredictedPart, Prediction
-from .proposals import SUFFIX, Proposal, joint_of, of_geometry, of_network, only
+from .proposals import SUFFIX, Proposal, joint_of, of_network, only
 from .truth import KINDS
 
 if TYPE_CHECKING:
@@ -31,22 +31,41 @@ _LEAST = 0.01
 
 
 def chosen(
-    mesh: Mesh, said: Prediction, seen: MeshCloud, sure: list[Proposal], spec: Spec, seed: int
+    mesh: Mesh,
+    said: Prediction,
+    seen: MeshCloud,
+    sure: list[Proposal],
+    spec: Spec,
+    geometry: Callable[[], list[Proposal]],
 ) -> list[Proposal]:
-    """As many proposals of each kind as are stated; those in doubt are looked at where there are too few."""
+    """As many proposals of each kind as are stated; those in doubt are looked at where there are too few.
+
+    Args:
+        mesh: of the faces.
+        said: with parts in doubt.
+        seen: what the network read.
+        sure: proposals that move if no number is stated.
+        spec: what is stated.
+        geometry: what geometry proposes to a spec, asked only where there are too few.
+    """
+    moves = np.zeros(len(mesh.faces), dtype=np.bool_)
+    for proposal in sure:
+        moves |= proposal.faces
 
     def labels(of: Sequence[Proposal]) -> tuple[str | None, ...]:
-        areas = [float(mesh.face_areas[proposal.faces].sum()) for proposal in of]
-        pairs = enumerate(zip(of, areas, strict=True))
-        return choose(
-            spec, [Option(p.guess.label, p.guess.score, area, k < len(sure)) for k, (p, area) in pairs]
-        )
+        options = []
+        for proposal in of:
+            area = float(mesh.face_areas[proposal.faces].sum())
+            # One of several that were lumped together is as sure as the lump.
+            surely = float(mesh.face_areas[proposal.faces & moves].sum()) > area / 2
+            options.append(Option(proposal.guess.label, proposal.guess.score, area, surely))
+        return choose(spec, options)
 
     every, found = sure, labels(sure)
     if _short(spec, found):
         doubtful = _parts(said, [replace(part, parent=0) for part in said.doubtful])
         more = of_network(doubtful, doubtful.piece_part[seen.face_piece], seen)
-        every = pooled(mesh, sure, [*more, *of_geometry(mesh, seed, spec)])
+        every = pooled(mesh, sure, [*more, *geometry()])
         found = labels(every)
     named = [p if label is None else _called(p, label) for p, label in zip(every, found, strict=True)]
     return only(named, [k for k, label in enumerate(found) if label is not None])

@@ -80,9 +80,7 @@ class Nano(Segmenter):
 
     def segment_beside(self, mesh: Mesh, spec: Spec | None, beside: Beside) -> Segmentation:
         """As `segment` or `segment_to`; the network reads in another process, if there is one."""
-        from simart_kit.told_materials import as_told
-
-        return as_told(seen_straight(mesh, lambda straight: self._segmented(straight, spec, beside)), mesh)
+        return seen_straight(mesh, lambda straight: self._segmented(straight, spec, beside))
 
     def _segmented(self, mesh: Mesh, spec: Spec | None, beside: Beside) -> Segmentation:
         from simart_kit.segments import find_segments
@@ -157,7 +155,7 @@ class Nano(Segmenter):
         from .joining import joined
         from .placing import placed
         from .pooling import pooled
-        from .proposals import of_network, with_body
+        from .proposals import of_geometry, of_network, with_body
         from .rotors import with_rotors
         from .travel import with_travel
         from .trusting import heeded, leads
@@ -174,7 +172,8 @@ class Nano(Segmenter):
             both = joined(mesh, pooled(mesh, first, second, known=known))
             proposals = with_hardware(mesh, seen.face_piece, both)
         if spec is not None:
-            proposals = chosen(mesh, said, seen, proposals, spec, self.seed)
+            more = partial(of_geometry, mesh, self.seed, spec) if self.options.pool else list
+            proposals = chosen(mesh, said, seen, proposals, spec, more)
         kept = with_body(mesh, proposals)
         found = _of_proposals(mesh, kept, seen, material)
         return found if spec is None else rejoined(mesh, found, kept, seen, spec)
