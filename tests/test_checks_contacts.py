@@ -88,6 +88,17 @@ class TestSweep:
         assert "drives body in drawer by 18" in result.text
         assert result.evidence["deep"][0]["depth"] == pytest.approx(0.1825, abs=5e-4)
 
+    @pytest.mark.parametrize("kind", ["urdf", "mjcf", "usd"])
+    def test_what_moves_on_a_part_may_graze_it_in_every_format(self, kind: str, tmp_path: Path) -> None:
+        """The drawer goes 5 cm into the back, 3 cm of which are free: 2 cm in an object of 1.09 m."""
+        short = with_joint("drawer_slide", axis=(0.0, 1.0, 0.0), limits=Limits(0.0, 0.05))
+        subject = subject_in(tmp_path, short, kind)
+        for known in (subject, Subject(subject.files)):
+            result = judged("sweep", known)
+            assert result.passed
+            assert max(row["depth"] for row in result.evidence["deep"]) == pytest.approx(0.02, abs=1e-3)
+            assert judged("travel", known).passed
+
     def test_a_door_that_opens_inwards(self) -> None:
         """The handle stands out by 3 cm in front and the door goes through the drawer or the side."""
         result = judged("sweep", Subject({}, with_joint("door_hinge", axis=(0.0, 0.0, -1.0))))

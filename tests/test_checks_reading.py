@@ -56,6 +56,15 @@ def ordered(body: Body) -> list[FloatArray]:
     return sorted(bounds, key=lambda b: tuple(np.round(b.ravel(), 4)))
 
 
+@pytest.mark.parametrize(("kind", "passes"), [("urdf", True), ("mjcf", False), ("usd", True)])
+def test_what_a_joint_connects_passes_unasked_but_in_mjcf(kind: str, passes: bool, tmp_path: Path) -> None:
+    asset = SOUND["cabinet"]()
+    read = read_mechanism(kind, export(asset, tmp_path, kind))
+    pairs = {frozenset((joint.parent, joint.child)) for joint in asset.joints}
+    assert read.passing == (pairs if passes else set())
+    assert not read.excluded & pairs
+
+
 @pytest.mark.parametrize("name", SOUND)
 def test_poses_are_those_of_forward_kinematics(name: str) -> None:
     asset = SOUND[name]()

@@ -22,6 +22,7 @@ from simart_kit.stages import Options as StageOptions
 from simart_kit.surfaces import asset_surfaces
 
 from .gaps import joined, look_gaps
+from .overlaps import contact_gaps
 from .urdf_links import MeshFolder, add_gazebo, add_link
 from .urdf_text import numbers, write_xml
 
@@ -94,6 +95,7 @@ class Urdf(Exporter):
                 "no mass is known: <inertial> is left out, and MuJoCo refuses the file where the part moves",
                 [p.name for p in asset.parts if p.mass is None],
             ),
+            *contact_gaps(asset),
         )
         base = ("URDF cannot say that the base is free: load it without fixing the base",)
         return (base if asset.floating else ()) + joined(found) + look_gaps(asset_surfaces(asset))

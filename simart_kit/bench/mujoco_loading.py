@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 _SCHEME = re.compile(r"^(package|model|file)://+")
 _PARENTS = 3  # folders above a file that a package may be
-BASE_EXCLUDE = "fixed base: "
-"""What names of the excludes begin with that stand for MuJoCo's filter of a base that floats in the file."""
+NEIGHBOURS = "neighbours: "
+"""What names of excludes begin with that the file need not ask for, as a joint connects the two bodies."""
 _NUMBERS = (
     "jnt_axis",
     "jnt_pos",
@@ -146,7 +146,7 @@ def _fix_base(spec: mujoco.MjSpec) -> bool:
     for joint in free:
         # MuJoCo lets a body pass through its parent, but not through one that stands still.
         for child in joint.parent.bodies:
-            name = BASE_EXCLUDE + child.name
+            name = NEIGHBOURS + child.name
             spec.add_exclude(name=name, bodyname1=joint.parent.name, bodyname2=child.name)
     for thing in [*free, *(spec.keys if free else [])]:
         spec.delete(thing)

@@ -39,7 +39,7 @@ def spec_of(mechanism: Mechanism) -> mujoco.MjSpec:
         _fill(spec, made[name], source, origins[name])
         if link and link.kind != "free" and not link.rigid:
             _add_joint(made[name], link)
-    for pair in mechanism.excluded:
+    for pair in mechanism.excluded | mechanism.passing:
         one, *other = sorted(pair)
         spec.add_exclude(bodyname1=one, bodyname2=(other or [one])[0])
     return spec

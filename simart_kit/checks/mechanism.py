@@ -76,11 +76,13 @@ class Mechanism:
         bodies: all of them.
         links: between them; bodies that none of them moves stand still.
         excluded: pairs of bodies that pass through each other by order of the file.
+        passing: those that do so because a joint connects them, without the file's order.
     """
 
     bodies: tuple[Body, ...]
     links: tuple[Link, ...]
     excluded: frozenset[frozenset[str]] = frozenset()
+    passing: frozenset[frozenset[str]] = frozenset()
 
     @cached_property
     def body(self) -> Mapping[str, Body]:

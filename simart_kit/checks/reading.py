@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..bench.mujoco_loading import LoadError, compiled, load_spec
+from ..bench.mujoco_loading import NEIGHBOURS, LoadError, compiled, is_urdf, load_spec
 from ..errors import BadInputError
 from .mechanism import Mechanism
 
@@ -33,11 +33,19 @@ def read_mechanism(kind: str, path: Path) -> Mechanism:
 
 
 def read_spec(path: Path) -> mujoco.MjSpec:
-    """A URDF or MJCF file with a fixed base, as MuJoCo takes it; raises BadInputError when it does not."""
+    """A URDF or MJCF file with a fixed base, as MuJoCo takes it; raises BadInputError when it does not.
+
+    Of URDF, a link and the one that it moves on do not touch, as in PyBullet, Drake and Isaac Sim; in MuJoCo
+    they do where the latter stands still.
+    """
     try:
-        return load_spec(path, fuse=False)
+        spec = load_spec(path, fuse=False)
     except LoadError as error:
         raise BadInputError(f"MuJoCo does not load {path.name}: {error}") from error
+    if is_urdf(path):
+        for body in [child for parent in spec.bodies[1:] for child in parent.bodies]:
+            spec.add_exclude(name=NEIGHBOURS + body.name, bodyname1=body.parent.name, bodyname2=body.name)
+    return spec
 
 
 def compiled_spec(spec: mujoco.MjSpec) -> mujoco.MjModel:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import FloatArray, mat3, vec3
 from ..asset import JointKind, MassProperties
-from ..bench.mujoco_loading import BASE_EXCLUDE
+from ..bench.mujoco_loading import NEIGHBOURS
 from .mechanism import WORLD, Body, Link, Mechanism
 from .names import body_name, joint_name
 from .round_shapes import box_corners, capsule_points, cylinder_points, sphere_points
@@ -31,7 +31,7 @@ def mechanism_of(model: mujoco.MjModel) -> Mechanism:
         if carried or model.body_jntnum[index]:
             parent = body_name(model, model.body_parentid[index]) if carried else WORLD
             links.append(_link(model, data, index, parent))
-    return Mechanism(bodies, tuple(links), _excluded(model))
+    return Mechanism(bodies, tuple(links), *_passing(model))
 
 
 def _is_frame(model: mujoco.MjModel, body: int) -> bool:
@@ -114,10 +114,10 @@ def _kind(model: mujoco.MjModel, joint: int) -> JointKind:
     return kinds[int(model.jnt_type[joint])]
 
 
-def _excluded(model: mujoco.MjModel) -> frozenset[frozenset[str]]:
-    """Pairs of names that the file excludes; MuJoCo keeps both numbers of a pair in one."""
-    pairs = set()
+def _passing(model: mujoco.MjModel) -> tuple[frozenset[frozenset[str]], frozenset[frozenset[str]]]:
+    """Pairs of names that the file excludes, and those that pass anyway; both numbers of a pair are one."""
+    asked, anyway = set[frozenset[str]](), set[frozenset[str]]()
     for index, signature in enumerate(model.exclude_signature):
-        if not model.exclude(index).name.startswith(BASE_EXCLUDE):
-            pairs.add(frozenset(body_name(model, int(body)) for body in divmod(int(signature), 1 << 16)))
-    return frozenset(pairs)
+        pair = frozenset(body_name(model, int(body)) for body in divmod(int(signature), 1 << 16))
+        (anyway if model.exclude(index).name.startswith(NEIGHBOURS) else asked).add(pair)
+    return frozenset(asked), frozenset(anyway - asked)

@@ -36,7 +36,7 @@ def read_usd(path: Path) -> Mechanism:
     if not reader.bodies:
         raise BadInputError(f"{path.name} has no prim with PhysicsRigidBodyAPI: nothing to simulate")
     bodies = tuple(reader.body(prim) for prim in reader.bodies.values())
-    return Mechanism(bodies, tuple(reader.links()), reader.excluded())
+    return Mechanism(bodies, tuple(reader.links()), reader.excluded(), reader.passing())
 
 
 class _Reader:
@@ -92,6 +92,18 @@ class _Reader:
                 others = [self._names[str(t)] for t in targets if str(t) in self._names]
                 pairs |= {frozenset((self._names[path], other)) for other in others}
         return frozenset(pairs)
+
+    def passing(self) -> frozenset[frozenset[str]]:
+        """Pairs that a joint connects which does not ask for contact between them."""
+        from pxr import UsdPhysics
+
+        pairs = set()
+        for prim in self._prims:
+            joint = UsdPhysics.Joint(prim)
+            if prim.IsA(UsdPhysics.Joint) and not joint.GetCollisionEnabledAttr().Get():
+                ends = [self._end(rel) for rel in (joint.GetBody0Rel(), joint.GetBody1Rel())]
+                pairs.add(frozenset(self._name(end) for end in ends if end is not None))
+        return frozenset(pair for pair in pairs if len(pair) == 2)
 
     def _name(self, body: Usd.Prim) -> str:
         return self._names[str(body.GetPath())]

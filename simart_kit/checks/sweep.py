@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +19,11 @@ from .ways import Ways, meet, moving_alone, told
 
 if TYPE_CHECKING:
     import mujoco
+
+
+# Shapes of parts that a joint connects may meet on its way, where nothing has them touch, by so much of the
+# diagonal: they are coarser than surfaces. What goes deeper goes the wrong way.
+_COARSE = 0.05
 
 
 class JointSweep(Check):
@@ -42,15 +48,17 @@ class JointSweep(Check):
         model = simulation.unfiltered()
         allowed = max(self.options.depth, self.options.share * simulation.mechanism.diagonal)
         swept = ranges(model)
-        excluded = {" in ".join(sorted(pair)) for pair in simulation.mechanism.excluded}
+        excluded, unasked = (_named(p) for p in (simulation.mechanism.excluded, simulation.mechanism.passing))
         faults, waits = list[Fault](), dict[str, tuple[str, ...]]()
         for joint, span in swept.items():
-            met, opened = self._deep(model, joint, span, allowed, excluded, simulation.ways)
+            met, opened = self._deep(model, joint, span, allowed, excluded | unasked, simulation.ways)
             faults += met
             waits |= {joint_name(model, joint): opened} if opened else {}
         deep = sorted(faults, key=lambda f: (-f.depth, f.text))
         if any(fault.text not in excluded for fault in deep):
-            excluded |= _passing(subject)
+            worst = {fault.text: fault.depth for fault in reversed(deep)}
+            coarse = _COARSE * simulation.mechanism.diagonal
+            excluded |= {pair for pair in _passing(subject) if worst.get(pair, 0.0) <= coarse}
         wrong = [f for f in deep if f.text not in excluded]
         rows = [
             {"joint": joint, "position": round(value, 6), "pair": f.text, "depth": round(f.depth, 6)}
@@ -90,21 +98,27 @@ class JointSweep(Check):
         return (found, way.opened) if all(fault.text in excluded for fault in found) else (at_rest, ())
 
 
-def _passing(subject: Subject) -> set[str]:
-    """Pairs of an asset that its file need not exclude on their joint's way: MuJoCo lets them pass unasked.
+def _named(pairs: Collection[frozenset[str]]) -> set[str]:
+    return {" in ".join(sorted(pair)) for pair in pairs}
 
-    These are a part and the one that it moves on, with what is fixed to either, unless that one is fixed to
-    the world.
+
+def _passing(subject: Subject) -> set[str]:
+    """Pairs of an asset that its file need not exclude on their joint's way: they pass unasked.
+
+    These are a part and the one that it moves on, with what is fixed to either; in MJCF not where that one is
+    fixed to the world.
     """
     from ..separation import overlaps_on_the_way, rigid_bodies
 
+    unasked = subject.simulation.mechanism.passing
     if subject.asset is None:
-        return set()
+        return _named(unasked)
     model, asset, bodies = subject.simulation.model, subject.asset, rigid_bodies(subject.asset)
     moved = {body_name(model, body) for body in range(model.nbody) if model.body_weldid[body]}
     moved |= {joint.child for joint in asset.joints if joint.kind == "free"}  # there it stays where it lies
     group = {part.name: int(body) for part, body in zip(asset.parts, bodies, strict=True)}
     jointed = {frozenset((group[j.parent], group[j.child])) for j in asset.joints if j.parent in moved}
+    jointed |= {frozenset(group[name] for name in pair) for pair in unasked}
     met = ((found.one, found.other) for found in overlaps_on_the_way(asset))
     return {" in ".join(sorted(pair)) for pair in met if frozenset(group[n] for n in pair) in jointed}
 
