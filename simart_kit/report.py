@@ -45,11 +45,9 @@ class Report:
         """One line: how many parts move, and how."""
         moving = [j for j in self.asset.joints if j.moves]
         if not moving:
-            return (
-                "static: nothing moves (1 part, 0 joints)"
-                if len(self.asset.parts) == 1
-                else "static: no joint"
-            )
+            parts, held = len(self.asset.parts), [j.name for j in self.asset.joints if j.flags]
+            told = f"; held fixed, see their flags: {', '.join(held)}" if held else ""
+            return f"static: nothing moves ({parts} part{'s' if parts > 1 else ''}, 0 joints{told})"
         kinds = ", ".join(f"{j.child} ({j.kind})" for j in moving)
         return f"{len(self.asset.parts)} parts, {len(moving)} joints: {kinds}"
 

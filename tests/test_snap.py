@@ -57,6 +57,14 @@ def test_the_sense_of_turning_stays() -> None:
     assert snapped(cabinet(tilted((-1, 0, 0), 3.0, "z"))) == (-1.0, 0.0, 0.0)
 
 
+@pytest.mark.parametrize("axis", [(0.0, 0.0, -1.0), (0.0, -1.0, 0.0), tilted((-1, 0, 0), 20.0, "z")])
+def test_what_turns_without_end_turns_about_the_positive_axis(axis: tuple[float, float, float]) -> None:
+    asset = cabinet(axis)
+    spin = replace(asset.joint("door_hinge"), kind="continuous", limits=None)
+    after = Snap().modify(asset.with_joints({"door_hinge": spin})).joint("door_hinge")
+    assert after == replace(spin, axis=vec3(-np.array(axis)))
+
+
 def test_directions_are_those_of_the_object_not_of_the_axes() -> None:
     """The cabinet stands turned by 30 degrees: what is 3 degrees off its own front takes that direction."""
     front = (np.sin(np.pi / 6), -np.cos(np.pi / 6), 0.0)

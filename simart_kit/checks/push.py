@@ -176,7 +176,7 @@ class Push(Check):
 def _sound(rows: Mapping[str, Mapping[str, float]], heavy: Sequence[str]) -> str:
     """What there is to say of an object that passes, some joints of which are too heavy."""
     if not rows:
-        return "static: nothing to push"
+        return "nothing to push: no joint has two ends"
     lifted = [f"{n} ({row['push']:.2g})" for n, row in rows.items() if row["lifted"] and n not in heavy]
     text = f"{len(rows) - len(heavy)} joints open at a push and stop at their limits"
     text += f"; lifted with more [N m | N]: {', '.join(lifted)}" if lifted else ""

@@ -110,11 +110,12 @@ class Dynamics(sk.Modifier):
     def _doubts(self, joint: Joint, moved: Load) -> list[str]:
         """What a push or friction cannot do, with the numbers."""
         unit = "N" if joint.kind == "prismatic" else "N*m"
+        does = "turn" if joint.kind == "continuous" else "open"
         needed, pulls, push = push_needed(joint, moved), moved.most, self._push(joint)
         texts = []
         if needed > push:
             texts.append(
-                f"{joint.name}: takes {needed:.3g} {unit} to open, more than a push of {push:g} {unit}"
+                f"{joint.name}: takes {needed:.3g} {unit} to {does}, more than a push of {push:g} {unit}"
             )
         if pulls > joint.friction:
             texts.append(

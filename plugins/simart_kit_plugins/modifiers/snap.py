@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class Snap(Modifier):
-    """Axes within an angle of a main direction of the surface take that direction."""
+    """Axes within an angle of a main direction of the surface take that direction, wheels' all one sense."""
 
     name = "snap"
     corrects_joints = True
@@ -53,11 +53,18 @@ class Snap(Modifier):
             best = int(np.abs(along).argmax())
             angle = float(np.degrees(np.arccos(np.clip(abs(along[best]), 0, 1))))
             if 1e-4 < angle <= self.options.angle:
-                snapped = directions[best] * np.sign(along[best])
-                changed[joint.name] = replace(joint, axis=vec3(snapped))
+                axis = directions[best] * np.sign(along[best])
                 if angle > 0.01:
                     told.append(f"{joint.name}: axis turned by {angle:.2f} degrees onto the geometry")
+            if joint.kind == "continuous":
+                axis = one_sense(axis)
+            changed[joint.name] = replace(joint, axis=vec3(axis))
         return asset.with_joints(changed).with_notes("snap", "info", told)
+
+
+def one_sense(axis: FloatArray) -> FloatArray:
+    """(3,) the axis or its opposite, so that one command drives all wheels of a car the same way."""
+    return np.asarray(axis * np.sign(axis[np.abs(axis).argmax()]))
 
 
 def main_directions(normals: FloatArray, areas: FloatArray, share: float) -> FloatArray:
