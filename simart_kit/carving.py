@@ -31,7 +31,8 @@ def carved_apart(asset: Asset, work: int = WORK, beside: Beside = ALONE) -> Asse
     """The asset without overlaps at rest: of two parts the one gives way that loses the smaller share.
 
     It is cut along the planes of the other's shapes; one that has very many by then is only cut smaller, and
-    none gives way that would lose much of its extent by it, as one with a pivot within another's blade.
+    none gives way that would lose much of its extent by it, as one with a pivot within another's blade. What
+    turns without end does only if the other cannot: a wheel with a notch does not roll.
 
     Args:
         asset: with collision shapes.
@@ -41,6 +42,7 @@ def carved_apart(asset: Asset, work: int = WORK, beside: Beside = ALONE) -> Asse
     shapes = {part.name: list(part.collision) for part in asset.parts}
     most = {name: len(row) + _MORE for name, row in shapes.items()}
     ends = {name: _ends(row) for name, row in shapes.items() if row}
+    rolling = {joint.child for joint in asset.joints if joint.kind == "continuous"}
     for overlap in overlaps(asset):
         if work <= 0:
             break
@@ -55,7 +57,7 @@ def carved_apart(asset: Asset, work: int = WORK, beside: Beside = ALONE) -> Asse
             if row and np.abs(_ends(row) - ends[name]).max() <= _SHORTER * asset.mesh.diagonal
         }
         if kept:
-            giver = max(kept, key=lambda name: kept[name])
+            giver = max(kept, key=lambda name: (name not in rolling, kept[name]))
             shapes[giver] = made[giver]
     return replaced(asset, {name: tuple(row) for name, row in shapes.items()})
 

@@ -1,5 +1,7 @@
 """Cutting shapes out of shapes: what is left, where it is, and that nothing overlaps."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -101,6 +103,16 @@ class TestParts:
         assert done.part("body").collision == asset.part("body").collision
         lost = 0.0505 * 0.1005 * 0.1005  # with the clearance on three sides
         assert volume_of(done.part("door")) >= 2.95 - lost - 0.06
+
+    def test_a_wheel_stays_round_where_the_fork_can_give_way(self):
+        fork = [box([0.4, 0.4, 0.96], [0.6, 0.6, 1.5])]
+        asset = asset_of(body=[box([5, 0, 0], [6, 1, 1])], wheel=[CUBE], fork=fork)
+        turning = [replace(j, kind="continuous", limits=None) for j in asset.joints if j.child == "wheel"]
+        rolling = replace(asset, joints=(*turning, *(j for j in asset.joints if j.child == "fork")))
+        assert carved_apart(asset).part("fork").collision == asset.part("fork").collision
+        done = carved_apart(rolling)
+        assert done.part("wheel").collision == asset.part("wheel").collision
+        assert overlaps(done) == ()
 
     def test_no_part_gives_way_that_would_lose_its_extent(self):
         # The pivot is a smaller share of its part than what it takes of the blade, which gives way even so.
