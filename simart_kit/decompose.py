@@ -35,6 +35,7 @@ _CUTS = 64  # of a shell that the work has to allow, or else it is not cut if it
 _LARGE = 0.01  # of the hull of all: excess from which on a piece is not joined with others
 _HOPELESS = 1.3  # times its solid: what a hull may hold when cutting has ended, before a tool is asked
 _WORTH_A_TOOL = 0.01  # of the hull of all: excess from which on a tool is asked
+_FILLED = 0.25  # of the hull of all: excess in one shape from which on a tool is asked for the whole
 _MOST_HOLDERS = 64
 _UNITED = 20_000  # faces of solids that are put together to see what they fill
 _INSIDE = 1e-4  # [m] that something hidden in a shape may look out of it
@@ -141,8 +142,10 @@ def decompose_surface(surface: Surface, budget: Budget) -> Decomposition:
         budget.work,
     )
     found = mended(cuts, budget.shapes, cut_tight(budget.tight), least)
-    shapes = _with_tool(found, budget, _WORTH_A_TOOL * whole.hull_volume)
-    return replace(shapes, work=work, crowded=len(cuts) > budget.shapes)
+    made = _with_tool(found, budget, _WORTH_A_TOOL * whole.hull_volume)
+    if max(piece.excess for piece in found) > _FILLED * whole.hull_volume and budget.tool_seconds > 0:
+        made = _less_filled(made, decompose_by_tool(surface.vertices, surface.faces, budget), pieces)
+    return replace(made, work=work, crowded=len(cuts) > budget.shapes)
 
 
 def decompose_by_tool(vertices: FloatArray, faces: IntArray, budget: Budget) -> Decomposition:
@@ -174,6 +177,18 @@ def _with_tool(pieces: Sequence[Piece], budget: Budget, worth: float) -> Decompo
     if _misses(found.shapes, body) < pieces[worst].excess:
         shapes[worst : worst + 1] = found.shapes
     return replace(found, shapes=tuple(shapes))
+
+
+def _less_filled(made: Decomposition, other: Decomposition, pieces: Sequence[Piece]) -> Decomposition:
+    """The one whose shapes are nearer to the solids of the pieces; the first where the other has failed."""
+    import manifold3d
+
+    bodies = [piece.body for piece in pieces if piece.body is not None]
+    if other.problem or not bodies:
+        return made
+    solid = manifold3d.Manifold.batch_boolean(bodies, manifold3d.OpType.Add)
+    nearer = min(made, other, key=lambda one: _misses(one.shapes, solid))
+    return replace(nearer, tool_seconds=made.tool_seconds + other.tool_seconds)
 
 
 def _misses(shapes: Sequence[ConvexMesh], body: Manifold) -> float:

@@ -179,3 +179,20 @@ def test_a_wheel_with_a_carved_hub_is_a_cylinder() -> None:
     assert shape.primitive is not None
     assert shape.primitive.kind == "cylinder"
     assert shape.primitive.size == pytest.approx((0.2, 0.2, 0.04))
+
+
+def test_a_pot_of_many_facets_is_not_filled_though_no_cuts_are_left_for_it() -> None:
+    """Its handle takes most of the shapes, and one hull would stand for what it can hold."""
+    outside = [(0.1 + 0.7 * np.sin(angle), -np.cos(angle)) for angle in np.linspace(0.1, 2.2, 14)]
+    inside_ = [(0.94 * r, 0.94 * z) for r, z in reversed(outside)]
+    pot = trimesh.creation.revolve([(0, -1.0), *outside, *inside_[:-1], (0, inside_[-1][1])], sections=20)
+    handle = trimesh.creation.torus(0.4, 0.06, major_sections=24, minor_sections=8)
+    handle.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [1, 0, 0]))
+    both = trimesh.util.concatenate([pot, handle.apply_translation([1.0, 0, 0])])
+    found = decompose(both.vertices, both.faces, Budget(tool_seconds=60.0))
+    assert len(found.shapes) <= 32
+    for point in ((0.0, 0.0, 0.0), (0.3, 0.0, -0.2), (0.0, 0.3, 0.3)):
+        assert not inside(found.shapes, point)
+    hulls = [manifold3d.Manifold.hull_points(shape.vertices) for shape in found.shapes]
+    filled = manifold3d.Manifold.batch_boolean(hulls, manifold3d.OpType.Add).volume()
+    assert filled < 0.3 * both.convex_hull.volume
