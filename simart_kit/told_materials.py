@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -14,7 +14,7 @@ from .mesh import Note
 if TYPE_CHECKING:
     from .arrays import IntArray
     from .mesh import Mesh, VisualMaterial
-    from .stages import Segmentation
+    from .stages import PartGuess, Segmentation
 
 # Share of a part's surface that has to be of a material that the file tells.
 _MOSTLY = 0.5
@@ -29,13 +29,20 @@ _IDLE = frozenset(["m", "mi", "mt", "mtl", "mat", "material", "materials", "shad
 def as_told(found: Segmentation, given: Mesh) -> Segmentation:
     """A segmentation with the materials that the file of the `given` mesh tells; those stated stay."""
     telling = told_materials(found.mesh_of(given), found.face_part)
-    told = {part: material for part, material in telling.items() if not found.parts[part].material_stated}
-    if not told:
-        return found
+    open_to_it = [k for k, guess in enumerate(found.parts) if not guess.material_stated]
+    told = {k: telling[k] for k in open_to_it if k in telling}
     parts = tuple(replace(p, material=told.get(k, p.material)) for k, p in enumerate(found.parts))
-    text = ", ".join(f"{parts[k].name} {material}" for k, material in sorted(told.items()))
-    note = Note("segment", "info", f"materials as the file tells: {text}")
-    return replace(found, parts=parts, notes=(*found.notes, note))
+    guessed = [parts[k] for k in open_to_it if k not in told]
+    notes = (
+        *_named("materials as the file tells", [parts[k] for k in told]),
+        *_named("materials are guesses ([physics] of a recipe states others)", guessed),
+    )
+    return replace(found, parts=parts, notes=(*found.notes, *notes))
+
+
+def _named(text: str, parts: Sequence[PartGuess]) -> tuple[Note, ...]:
+    words = ", ".join(f"{part.name} {part.material}" for part in parts)
+    return (Note("segment", "info", f"{text}: {words}"),) if parts else ()
 
 
 def told_materials(mesh: Mesh, face_part: IntArray) -> Mapping[int, str]:

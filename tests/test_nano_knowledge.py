@@ -11,11 +11,17 @@ from simart_kit.physics import MATERIALS
 def test_a_part_is_made_of_what_such_parts_of_such_objects_are():
     usual = {"fridge/door": "steel", "/door": "wood", "fridge/": "plastic", "/": "mdf"}
     known = Knowledge(materials=usual)
-    assert known.material("fridge", "door") == "steel"
-    assert known.material("wardrobe", "door") == "wood"
-    assert known.material("fridge", "ice tray") == "plastic"
-    assert known.material("wardrobe", "flap") == "mdf"
-    assert Knowledge().material("wardrobe", "flap") == "plastic"
+    assert known.material({"fridge": 1.0}, "door") == "steel"
+    assert known.material({"wardrobe": 1.0}, "door") == "wood"
+    assert known.material({"fridge": 1.0}, "ice tray") == "plastic"
+    assert known.material({"wardrobe": 1.0}, "flap") == "mdf"
+    assert Knowledge().material({"wardrobe": 1.0}, "flap") == "plastic"
+
+
+def test_of_what_is_not_recognised_all_that_it_may_be_have_a_say():
+    known = Knowledge(materials={"safe/": "steel", "wardrobe/": "wood", "desk/": "wood"})
+    assert known.material({"safe": 0.4, "wardrobe": 0.35, "desk": 0.25}, "") == "wood"
+    assert known.material({"safe": 0.6, "wardrobe": 0.2, "desk": 0.2}, "") == "steel"
 
 
 def test_knowledge_is_counted_among_generated_objects():
@@ -28,8 +34,8 @@ def test_knowledge_is_counted_among_generated_objects():
 
 def test_feet_and_eggs_do_not_say_what_a_thing_is_made_of():
     known = counted(["microwave", "fridge"], seed=3)
-    assert known.material("microwave", "") == "steel"  # its rubber feet have more triangles
-    assert known.material("fridge", "door") in ("steel", "plastic")
+    assert known.material({"microwave": 1.0}, "") == "steel"  # its rubber feet have more triangles
+    assert known.material({"fridge": 1.0}, "door") in ("steel", "plastic")
 
 
 def test_knowledge_is_kept_beside_the_weights(tmp_path):

@@ -91,8 +91,14 @@ def test_the_others_keep_what_was_guessed_and_a_note_says_what_was_told():
     found = Segmentation(faces, (PartGuess("body", material="steel"), PartGuess("door", material="mdf")))
     result = as_told(found, mesh)
     assert [part.material for part in result.parts] == ["steel", "wood"]
-    assert [note.text for note in result.notes] == ["materials as the file tells: door wood"]
-    assert as_told(found, _of("white", "grey")) is found
+    guessed = "materials are guesses ([physics] of a recipe states others)"
+    assert [note.text for note in result.notes] == [
+        "materials as the file tells: door wood",
+        f"{guessed}: body steel",
+    ]
+    unknown = as_told(found, _of("white", "grey"))
+    assert unknown.parts == found.parts
+    assert [note.text for note in unknown.notes] == [f"{guessed}: body steel, door mdf"]
 
 
 def test_what_a_model_or_a_person_states_stays():

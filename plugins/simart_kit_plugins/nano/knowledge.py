@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from pydantic import Field
 
@@ -23,7 +23,15 @@ class Knowledge(Table):
     )
     still: tuple[str, ...] = Field(default=(), description="Categories of which nothing moves.")
 
-    def material(self, category: str, label: str) -> str:
+    def material(self, chances: Mapping[str, float], label: str) -> str:
+        """What a part is likeliest of, by the chances of what the object is; plastic if nothing is known."""
+        likely: dict[str, float] = {}
+        for category, chance in chances.items():
+            usual = self._usual(category, label)
+            likely[usual] = likely.get(usual, 0.0) + chance
+        return max(likely, key=lambda material: likely[material], default="plastic")
+
+    def _usual(self, category: str, label: str) -> str:
         """Of a part by name and object, else by name alone, else what the object is made of."""
         for key in (f"{category}/{label}", f"/{label}", f"{category}/{BODY}", f"/{BODY}"):
             if key in self.materials:

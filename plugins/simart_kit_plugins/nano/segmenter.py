@@ -104,7 +104,7 @@ class Nano(Segmenter):
         at_once = asked and len(mesh.faces) <= _MANY
         geometry = of_geometry(mesh, self.seed) if at_once else []
         said = saying.result()
-        material = partial(known.material, said.category)
+        material = partial(known.material, said.categories)
         still = sum(said.categories[name] for name in known.still)
         moves = (spec is not None and spec.moves) or not stands_still(said, still)
         if not moves:
