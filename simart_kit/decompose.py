@@ -35,7 +35,7 @@ _CUTS = 64  # of a shell that the work has to allow, or else it is not cut if it
 _LARGE = 0.01  # of the hull of all: excess from which on a piece is not joined with others
 _HOPELESS = 1.3  # times its solid: what a hull may hold when cutting has ended, before a tool is asked
 _WORTH_A_TOOL = 0.01  # of the hull of all: excess from which on a tool is asked
-_FILLED = 0.25  # of the hull of all: excess in one shape from which on a tool is asked for the whole
+_FILLED = 0.25  # of the hull of all: excess of a solid, still there when cut, that asks a tool for the whole
 _MOST_HOLDERS = 64
 _UNITED = 20_000  # faces of solids that are put together to see what they fill
 _INSIDE = 1e-4  # [m] that something hidden in a shape may look out of it
@@ -143,7 +143,8 @@ def decompose_surface(surface: Surface, budget: Budget) -> Decomposition:
     )
     found = mended(cuts, budget.shapes, cut_tight(budget.tight), least)
     made = _with_tool(found, budget, _WORTH_A_TOOL * whole.hull_volume)
-    if max(piece.excess for piece in found) > _FILLED * whole.hull_volume and budget.tool_seconds > 0:
+    filled = min(max(piece.excess for piece in those) for those in (pieces, found))
+    if filled > _FILLED * whole.hull_volume and budget.tool_seconds > 0:
         made = _less_filled(made, decompose_by_tool(surface.vertices, surface.faces, budget), pieces)
     return replace(made, work=work, crowded=len(cuts) > budget.shapes)
 
