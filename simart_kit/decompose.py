@@ -36,6 +36,7 @@ _LARGE = 0.01  # of the hull of all: excess from which on a piece is not joined 
 _HOPELESS = 1.3  # times its solid: what a hull may hold when cutting has ended, before a tool is asked
 _WORTH_A_TOOL = 0.01  # of the hull of all: excess from which on a tool is asked
 _FILLED = 0.25  # of the hull of all: excess of a solid, still there when cut, that asks a tool for the whole
+_OF_VOXELS = 16  # vertices that a shape made of voxels is worth: more only take contacts and time
 _MOST_HOLDERS = 64
 _UNITED = 20_000  # faces of solids that are put together to see what they fill
 _INSIDE = 1e-4  # [m] that something hidden in a shape may look out of it
@@ -145,7 +146,8 @@ def decompose_surface(surface: Surface, budget: Budget) -> Decomposition:
     made = _with_tool(found, budget, _WORTH_A_TOOL * whole.hull_volume)
     filled = min(max(piece.excess for piece in those) for those in (pieces, found))
     if filled > _FILLED * whole.hull_volume and budget.tool_seconds > 0:
-        made = _less_filled(made, decompose_by_tool(surface.vertices, surface.faces, budget), pieces)
+        coarse = replace(budget, vertices=min(budget.vertices, _OF_VOXELS))
+        made = _less_filled(made, decompose_by_tool(surface.vertices, surface.faces, coarse), pieces)
     return replace(made, work=work, crowded=len(cuts) > budget.shapes)
 
 
