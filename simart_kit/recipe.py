@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from .errors import PluginError, RecipeError, UnknownPluginError
 from .extras import require_extra
-from .physics_overrides import PhysicsTable
+from .physics_overrides import MaterialChange, PartChange, PhysicsTable
 from .plugins import Plugins, Registration
 from .recipe_files import LISTS, Table, read_table
 from .recipe_files import packaged_recipes as packaged_recipes
@@ -85,7 +85,9 @@ def load_recipe(source: str | Path, plugins: Plugins, sets: Iterable[str] = ()) 
     Raises:
         RecipeError: listing every mistake at once.
     """
-    return parse_recipe(read_table(source, plugins, sets), plugins, str(source))
+    changes = list(sets)
+    where = f"{source}' as changed by '{' '.join(changes)}" if changes else str(source)
+    return parse_recipe(read_table(source, plugins, changes), plugins, where)
 
 
 def parse_recipe(table: Mapping[str, Any], plugins: Plugins, where: str) -> Recipe:
@@ -225,8 +227,21 @@ def _option_mistakes(place: tuple[str, ...], stage: type[Stage], error: Validati
 
 def _keys(location: tuple[int | str, ...]) -> str:
     """The keys that there are where one of a recipe is wrong; "" where its own table tells."""
-    table = Recipe if len(location) == 1 else Use if location[0] in (*_SINGLES, *LISTS) else None
-    return ", ".join(field.alias or name for name, field in table.model_fields.items()) if table else ""
+    match location:
+        case (_,):
+            table: type[BaseModel] = Recipe
+        case ("physics", _):
+            table = PhysicsTable
+        case ("physics", "materials", _, _):
+            table = MaterialChange
+        case ("physics", "parts", _, _):
+            table = PartChange
+        case (str(key), *_) if key in (*_SINGLES, *LISTS):
+            table = Use
+        case _:
+            return ""
+    parents = ["extends"] if table is Recipe else []
+    return ", ".join([*parents, *(field.alias or name for name, field in table.model_fields.items())])
 
 
 def _told(location: tuple[int | str, ...], error: Any, known: str = "") -> str:
