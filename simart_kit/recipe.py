@@ -86,7 +86,9 @@ def load_recipe(source: str | Path, plugins: Plugins, sets: Iterable[str] = ()) 
         RecipeError: listing every mistake at once.
     """
     changes = list(sets)
-    where = f"{source}' as changed by '{' '.join(changes)}" if changes else str(source)
+    # Not their values, which may be secret.
+    keys = ", ".join(change.partition("=")[0] for change in changes)
+    where = f"{source}' with changes of '{keys}" if changes else str(source)
     return parse_recipe(read_table(source, plugins, changes), plugins, where)
 
 
