@@ -153,11 +153,10 @@ def ground(
     check_extras([("segmenter", resolved.segmenter)], plugins)
     loaded = read_source(path, plugins, up, unit)
     stage, registration = build(resolved.segmenter, Segmenter, plugins, resolved.seed)
-    if loaded.stated is not None:
-        # As in `convert`, whatever segmenter the recipe names.
-        grounded = by_names(loaded.stated, loaded.mesh, description)
-    else:
+    if loaded.stated is None:
         grounded = find_part(stage, registration, loaded.mesh, description, resolved.stage_timeout)
+    else:  # as in `convert`, whatever segmenter the recipe names
+        grounded = by_names(loaded.stated, loaded.mesh, description)
     if not grounded.faces.any():
         raise BadInputError(f"{path}: {_nothing(description, grounded)}")
     found = Grounding(

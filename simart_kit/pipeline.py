@@ -113,7 +113,6 @@ def convert(
     judges = build_checks(resolved, plugins)
     wishes = None if spec is None else read_spec(spec)
     folder = Path(out) if out is not None else Path("out") / name
-
     with staging(folder) as work:
         runner = Runner(Run(name, path, resolved, work, record), plugins)
         with _failures_kept(runner, folder):
@@ -125,8 +124,8 @@ def convert(
                 asset, picture = _modify(runner, plugins, resolved, asset, loaded.stated is not None, beside)
                 asset = asset if wishes is None else with_verdicts(asset, wishes)
                 report, mains = _write(runner, plugins, resolved, judges, asset, picture, beside)
-        arguments: dict[str, Any] = {"name": name, "up": up, "unit": unit, "floating": floating}
-        arguments["spec"] = None if wishes is None else wishes.table()
+        stated = wishes and wishes.table()
+        arguments = {"name": name, "up": up, "unit": unit, "floating": floating, "spec": stated}
         return _finish(runner, plugins, loaded, report, mains, folder, arguments)
 
 

@@ -63,7 +63,7 @@ class Runner:
         self.notes: tuple[Note, ...] = ()
         self._plugins = plugins
         self._begun: Callable[[], object] | None = None
-        self._told: SimartKitError | None = None
+        self._told = False
 
     def call(self, stage: str, name: str, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
         """Run a step of the core's own; its errors pass through, once observers are told of them."""
@@ -130,9 +130,9 @@ class Runner:
 
     def failed(self, stage: str, error: SimartKitError) -> None:
         """Tell observers, once, when what was begun has come to its end; that must not hide the failure."""
-        if error is self._told:
+        if self._told:
             return
-        self._told = error
+        self._told = True
         try:
             self.settle()
         except Exception as another:

@@ -75,23 +75,7 @@ def overlapping_strangers(asset: Asset) -> Mapping[tuple[str, str], Overlap]:
     return {pair: overlap for pair, overlap in found.items() if set(pair) not in jointed}
 
 
-def contact_gaps(asset: Asset) -> tuple[tuple[str, list[str]], ...]:
-    """What it means where contact cannot be ruled out, and the pairs: strangers, and a joint's own two."""
-    strangers = overlapping_strangers(asset)
-    own = {pair: overlap for pair, overlap in overlapping_parts(asset).items() if pair not in strangers}
-    return (
-        ("their shapes overlap, and URDF cannot rule out contact", _words(strangers)),
-        (
-            "their shapes overlap, and MuJoCo has them touch where others do not: give it the MJCF",
-            _words(own),
-        ),
-    )
-
-
 def told(found: Mapping[tuple[str, str], Overlap]) -> tuple[str, list[str]]:
     """What it means, and each of `overlapping_parts` in words."""
-    return "collision shapes overlap, so contact between the parts is off", _words(found)
-
-
-def _words(found: Mapping[tuple[str, str], Overlap]) -> list[str]:
-    return [overlap.words(*pair) for pair, overlap in found.items()]
+    words = [overlap.words(*pair) for pair, overlap in found.items()]
+    return "collision shapes overlap, so contact between the parts is off", words

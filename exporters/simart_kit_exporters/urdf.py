@@ -22,7 +22,7 @@ from simart_kit.stages import Options as StageOptions
 from simart_kit.surfaces import asset_surfaces
 
 from .gaps import joined, look_gaps
-from .overlaps import contact_gaps
+from .overlaps import overlapping_parts, overlapping_strangers, told
 from .urdf_links import MeshFolder, add_gazebo, add_link
 from .urdf_text import numbers, write_xml
 
@@ -95,7 +95,7 @@ class Urdf(Exporter):
                 "no mass is known: <inertial> is left out, and MuJoCo refuses the file where the part moves",
                 [p.name for p in asset.parts if p.mass is None],
             ),
-            *contact_gaps(asset),
+            *_touching(asset),
         )
         base = ("URDF cannot say that the base is free: load it without fixing the base",)
         return (base if asset.floating else ()) + joined(found) + look_gaps(asset_surfaces(asset))
@@ -106,6 +106,19 @@ class Urdf(Exporter):
             home = directory / name
             return home, MeshFolder(home / _FOLDER, f"package://{name}/{_FOLDER}")
         return directory, MeshFolder(directory / _FOLDER, _FOLDER)
+
+
+def _touching(asset: Asset) -> tuple[tuple[str, list[str]], ...]:
+    """Pairs that should not touch, and what it means that they do: strangers, and a joint's own two."""
+    strangers = overlapping_strangers(asset)
+    own = {pair: overlap for pair, overlap in overlapping_parts(asset).items() if pair not in strangers}
+    return (
+        ("their shapes overlap, and URDF cannot rule out contact", told(strangers)[1]),
+        (
+            "their shapes overlap, and MuJoCo has them touch where others do not: give it the MJCF",
+            told(own)[1],
+        ),
+    )
 
 
 def _add_joint(robot: Element, joint: Joint, parent_origin: FloatArray, friction: bool) -> None:
