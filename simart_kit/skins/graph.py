@@ -62,12 +62,20 @@ class SkinGraph:
     def medians(self, values: FloatArray) -> FloatArray:
         """(V, K) medians of (V, K) values over each vertex and those beside it, column by column."""
         a, b = self.edges.T
-        every = np.arange(len(values))
+        size = len(values)
+        every = np.arange(size)
         row, column = np.concatenate([a, b, every]), np.concatenate([b, a, every])
-        count = np.bincount(row, minlength=len(values))
+        count = np.bincount(row, minlength=size)
         middle = np.cumsum(count) - count + count // 2
-        ordered = [column[np.lexsort((one[column], row))[middle]] for one in values.T]
-        return np.stack([one[at] for one, at in zip(values.T, ordered, strict=True)], axis=1)
+        rows = row * size
+        found = np.empty_like(values)
+        for k, one in enumerate(values.T):
+            order = np.argsort(one, kind="stable")
+            rank = np.zeros(size, dtype=np.int64)
+            rank[order] = every
+            # Rows by rank are whole numbers, which are sorted in a tenth of the time.
+            found[:, k] = one[order[np.sort(rows + rank[column])[middle] % size]]
+        return found
 
     def pieces(self, barrier: BoolArray) -> IntArray:
         """(V,) labels 0.. of what hangs together without (V,) barriers; each of these is alone."""

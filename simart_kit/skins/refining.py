@@ -42,10 +42,15 @@ class Refined:
     source: IntArray
     weights: FloatArray
 
+    def of(self, some: BoolArray) -> Refined:
+        """Those of (N,) triangles."""
+        return Refined(self.places, self.faces[some], self.source[some], self.weights[some])
+
     @property
     def shares(self) -> FloatArray:
         """(N,) of its source's area that each has."""
-        return np.asarray(np.abs(np.linalg.det(self.weights)))
+        one, other, third = self.weights.transpose(1, 2, 0)
+        return np.asarray(np.abs(np.einsum("kn,kn->n", one, np.cross(other, third, axis=0))))
 
     def on_sources(self, label: IntArray, areas: FloatArray) -> IntArray:
         """(F,) the label that most of each source has, of (N,) labels of triangles with (N,) areas."""
@@ -72,15 +77,21 @@ def refined(places: FloatArray, faces: IntArray, longest: float) -> Refined:
     alike = side.max() < _UNEVEN * np.median(side) and _middle(side.mean(axis=1)) < _COARSE * longest
     if alike or _estimated(side / longest) > _MOST:
         return now
+    left = list[Refined]()
     while (long := _sides(now) > longest).any():
-        now = _halved(now, long)
-    return now
+        some = np.asarray(long.any(axis=1))
+        left.append(now.of(~some))  # sides are not cut by one of the two alone, so these stay as they are
+        now = _halved(now.of(some), long[some])
+    faces, source, weights = (
+        np.concatenate([getattr(part, of) for part in (*left, now)]) for of in ("faces", "source", "weights")
+    )
+    return Refined(now.places, faces, source, weights)
 
 
 def _sides(now: Refined) -> FloatArray:
     """(N, 3) lengths of the sides that begin at each corner."""
-    at = now.places[now.faces]
-    return lengths((at[:, [1, 2, 0]] - at).reshape(-1, 3)).reshape(-1, 3)
+    a, b, c = (now.places.take(corner, axis=0) for corner in now.faces.T)
+    return np.stack([lengths(b - a), lengths(c - b), lengths(a - c)], axis=1)
 
 
 def _middle(side: FloatArray) -> float:
@@ -97,13 +108,13 @@ def _estimated(sides: FloatArray) -> float:
 
 
 def _halved(now: Refined, long: BoolArray) -> Refined:
-    """The sides that (N, 3) marks cut in their middles."""
+    """The sides that (N, 3) marks, some of each triangle, cut in their middles."""
     _, first, middle = np.unique(edges(now.faces)[long], return_index=True, return_inverse=True)
     ends = np.stack([now.faces, now.faces[:, [1, 2, 0]]], axis=2)[long][first]
     middles = np.full(long.shape, -1)
     middles[long] = len(now.places) + middle.reshape(-1)
     cut = long.sum(axis=1)
-    parts = [(now.faces[cut == 0], now.source[cut == 0], now.weights[cut == 0])]
+    parts = []
     for sides, split in _SPLITS.items():
         some = np.flatnonzero(cut == sides)
         # Of two sides the first is the one after that which stays.
