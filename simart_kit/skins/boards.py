@@ -17,27 +17,32 @@ _COVERED = 0.6  # share of either face behind which the other one lies
 _LOOKS = 200  # places at which a face is looked through
 
 
-def with_faces_joined(graph: SkinGraph, label: IntArray, facing: FloatArray, faces: IntArray) -> IntArray:
+def with_faces_joined(
+    graph: SkinGraph, label: IntArray, facing: FloatArray, rays: Rays, face_label: IntArray
+) -> IntArray:
     """(V,) labels 0..; flat pieces that lie back to back, with little between them, are one.
 
     Args:
         graph: of the skin.
         label: (V,) its pieces 0...
         facing: (V, 3) unit, smooth normals.
-        faces: (F, 3) vertices.
+        rays: that meet the skin's faces.
+        face_label: (F,) the piece of each of these.
     """
-    covered = _covered(graph, label, facing, faces) > _COVERED
+    covered = _covered(graph, label, facing, rays, face_label) > _COVERED
     one, two = np.nonzero(covered & covered.T)
     joined = connected(len(covered), one, two)
     return np.asarray(np.unique(joined[label], return_inverse=True)[1].reshape(-1))
 
 
-def _covered(graph: SkinGraph, label: IntArray, facing: FloatArray, faces: IntArray) -> FloatArray:
+def _covered(
+    graph: SkinGraph, label: IntArray, facing: FloatArray, rays: Rays, face_label: IntArray
+) -> FloatArray:
     """(P, P) share of a flat piece close behind which another one lies."""
     area = np.bincount(label, graph.areas)
     sums = [np.bincount(label, graph.areas * column, len(area)) for column in facing.T]
     normal = unit(np.stack(sums, axis=1))
-    shares, rays = np.zeros((len(area), len(area))), Rays(graph.places, faces)
+    shares = np.zeros((len(area), len(area)))
     for piece in np.flatnonzero(area > _LEAST * area.sum()):
         members = np.flatnonzero(label == piece)
         flat = members[facing[members] @ normal[piece] > _ALONG]
@@ -48,5 +53,5 @@ def _covered(graph: SkinGraph, label: IntArray, facing: FloatArray, faces: IntAr
         met, distance = rays.first(starts, -normal[piece])
         thick = min(_THICK * graph.size, _SLENDER * float(np.sqrt(area[piece])))
         close = (met >= 0) & (distance < thick)
-        shares[piece] = np.bincount(label[faces[met[close], 0]], minlength=len(area)) / len(some)
+        shares[piece] = np.bincount(face_label[met[close]], minlength=len(area)) / len(some)
     return shares

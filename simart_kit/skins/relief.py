@@ -13,6 +13,7 @@ from ..alignment import straight_from_asset
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..mesh import Mesh
 from ..normals import with_normals
+from ..rays import Rays
 from ..srgb import linear_to_srgb
 from ..topology import without_gaps
 from .boards import with_faces_joined
@@ -47,10 +48,10 @@ def relief_pieces(mesh: Mesh, corners: IntArray, kept: IntArray) -> IntArray:
         corners: (K, 3) what they meet at.
         kept: (K,) ids of the faces.
     """
-    used, faces = without_gaps(corners)
+    used, whole = without_gaps(corners)
     places = np.zeros((len(used), 3))
-    places[faces] = mesh.triangles[kept]
-    fine = refined(places, faces, LONGEST * RADIUS * float(np.ptp(places, axis=0).max()))
+    places[whole] = mesh.triangles[kept]
+    fine = refined(places, whole, LONGEST * RADIUS * float(np.ptp(places, axis=0).max()))
     faces, source = fine.faces, kept[fine.source]
     areas = mesh.face_areas[source] * fine.shares
     graph = skin_graph(fine.places, faces, mesh.face_normals[source], areas)
@@ -64,7 +65,9 @@ def relief_pieces(mesh: Mesh, corners: IntArray, kept: IntArray) -> IntArray:
         piece = with_lobes_whole(graph, piece, height)
     piece = with_sides_parted(graph, piece, way, _LEAST)
     piece = with_frames_shared_out(graph, piece, facing)
-    piece = with_fronts_parted(graph, with_faces_joined(graph, piece, facing, faces), facing)
+    on_faces = fine.on_sources(_of_faces(piece, faces), areas)
+    piece = with_faces_joined(graph, piece, facing, Rays(places, whole), on_faces)
+    piece = with_fronts_parted(graph, piece, facing)
     return fine.on_sources(_of_faces(piece, faces), areas)
 
 
