@@ -16,8 +16,9 @@ from .topology import without_gaps
 if TYPE_CHECKING:
     from manifold3d import Manifold
 
-_MANY_FACES = 5000
-_TOLERANCES = 0.0005, 0.001, 0.002  # of a solid's diagonal: how far its surface may move
+# How far the surface of a solid may move, of its diagonal, where it still has more than so many faces.
+_TOLERANCES = ((0.0005, 1200), (0.001, 1200), (0.002, 1200), (0.004, 3000), (0.006, 3000))
+_LOST = 0.15  # of its volume that it may lose or gain so
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,11 +98,16 @@ def _closes(faces: IntArray, count: int) -> bool:
 def simpler(body: Manifold) -> Manifold:
     """A solid of many faces with fewer, its surface moved by little: what cutting costs is counted in faces.
 
-    Tolerances grow only while there are still many: what is flat or finely curved stays all but exact.
+    Tolerances grow only while there are still many: what is flat or finely curved stays all but exact. Where
+    one takes much of the solid, as of thin walls, the last one that did not is kept.
     """
     size = float(np.linalg.norm(np.subtract(body.bounding_box()[3:], body.bounding_box()[:3])))
-    for tolerance in _TOLERANCES:
-        if body.num_tri() <= _MANY_FACES:
+    solid = body.volume()
+    for tolerance, many in _TOLERANCES:
+        if body.num_tri() <= many:
             break
-        body = body.simplify(tolerance * size)
+        fewer = body.simplify(tolerance * size)
+        if abs(fewer.volume() - solid) > _LOST * solid:
+            break
+        body = fewer
     return body

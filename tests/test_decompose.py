@@ -11,17 +11,18 @@ from simart_kit.arrays import FloatArray, IntArray
 from simart_kit.asset import ConvexMesh
 from simart_kit.decompose import Budget, decompose
 from simart_kit.hulls import volume
-from simart_kit.pieces import simpler
+from simart_kit.pieces import simpler, solid_body
 from simart_kit.sheets import SHEET
 from simart_kit.testing.meshes import box, boxes_mesh
 
 from .furniture import carcass, drawer
 
 Surface = tuple[FloatArray, IntArray]
+Corner = tuple[float, float, float]
 CUTS_ONLY = Budget(tool_seconds=0.0)
 
 
-def united(boxes: list[tuple[tuple[float, float, float], tuple[float, float, float]]]) -> Surface:
+def united(boxes: list[tuple[Corner, Corner]]) -> Surface:
     """Boxes as one shell."""
     solids = [manifold3d.Manifold.cube(tuple(np.subtract(b, a))).translate(a) for a, b in boxes]
     mesh = manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add).to_mesh64()
@@ -37,7 +38,7 @@ def inside(shapes: tuple[ConvexMesh, ...], point: tuple[float, float, float]) ->
     return False
 
 
-def of_boards(boxes: list[tuple[tuple[float, float, float], tuple[float, float, float]]]) -> float:
+def of_boards(boxes: list[tuple[Corner, Corner]]) -> float:
     return float(sum(np.prod(np.subtract(b, a)) for a, b in boxes))
 
 
@@ -88,15 +89,43 @@ class TestOneShell:
         assert "took longer" in found.problem
 
 
+def rough(boxes: list[tuple[Corner, Corner]], by: float, side: float = 0.011) -> Surface:
+    """Boxes as one shell of faces with sides so long, whose vertices lie up to `by` [m] beside it."""
+    fine = solid(united(boxes)).refine_to_length(side).to_mesh64()
+    places = np.asarray(fine.vert_properties)[:, :3]
+    shaken = np.random.default_rng(0).uniform(-by, by, places.shape)
+    return places + shaken, np.asarray(fine.tri_verts).astype(np.int64)
+
+
+def solid(surface: Surface) -> manifold3d.Manifold:
+    body = solid_body(*surface)
+    assert body is not None
+    return body
+
+
 def test_a_solid_of_many_faces_keeps_its_place_with_fewer() -> None:
-    fine = manifold3d.Manifold.cube((0.6, 0.4, 0.7)).refine(24)
-    shaken = np.random.default_rng(0).uniform(-1e-4, 1e-4, (fine.num_vert(), 3))
-    rough = fine.warp_batch(lambda points: points + shaken)
-    found = simpler(rough)
-    assert found.num_tri() < rough.num_tri() / 3
+    many = solid(rough([((0.0, 0.0, 0.0), (0.6, 0.4, 0.7))], 1e-4))
+    found = simpler(many)
+    assert found.num_tri() < many.num_tri() / 3
     assert found.volume() == pytest.approx(0.6 * 0.4 * 0.7, rel=0.01)
     np.testing.assert_allclose(found.bounding_box(), [0, 0, 0, 0.6, 0.4, 0.7], atol=0.002)
     assert simpler(found).num_tri() <= found.num_tri()
+
+
+def test_thin_walls_stay_where_a_solid_loses_faces() -> None:
+    board = ((0.0, 0.0, 0.0), (0.6, 0.004, 0.4))
+    assert simpler(solid(rough([board], 1e-3))).volume() == pytest.approx(of_boards([board]), rel=0.15)
+
+
+def test_a_rough_stool_is_open_between_its_legs() -> None:
+    feet = [(x, y) for x in (0.0, 0.36) for y in (0.0, 0.36)]
+    boxes = [((x, y, 0.0), (x + 0.04, y + 0.04, 0.46)) for x, y in feet]
+    boxes += [((0.0, 0.0, 0.45), (0.4, 0.4, 0.48)), ((0.02, 0.01, 0.15), (0.38, 0.03, 0.18))]
+    found = decompose(*rough(boxes, 1.5e-3, 0.006), CUTS_ONLY)
+    assert not inside(found.shapes, (0.2, 0.2, 0.3))
+    assert not inside(found.shapes, (0.2, 0.38, 0.1))
+    assert inside(found.shapes, (0.2, 0.02, 0.165))
+    assert sum(map(volume, found.shapes)) == pytest.approx(solid(united(boxes)).volume(), rel=0.1)
 
 
 class TestOpenSurfaces:
