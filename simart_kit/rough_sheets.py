@@ -15,6 +15,7 @@ import numpy as np
 from .arrays import BoolArray, FloatArray, IntArray, unit
 from .cutting import cut
 from .hulls import sphere_directions
+from .mending import mended
 from .pieces import Piece, piece_of
 from .rims import outlines, rim
 from .straightening import straight_runs
@@ -31,6 +32,7 @@ _LEVEL = 0.005  # of the sheet's diagonal: how far faces lie off the plane of th
 _WALL, _SPECK = 1e-3, 5e-4  # of the sheet: what a wall is at least, and what may be left out
 _MOSTLY = 0.5  # of the sheet that walls have to be
 _MOST, _TIGHT = 64, 1.25  # cuts of the boards, and times its board: what a hull may hold, they are not exact
+_JOINED = 0.03  # of the sheet's boards: what a shape may hold besides its own, they are not exact
 _RAGGED = 1.0  # times the length of an edge: teeth of an outline that are cut off
 
 
@@ -61,7 +63,7 @@ def walls(vertices: FloatArray, faces: IntArray, thickness: float) -> list[Piece
     for rest in _together(faces, np.flatnonzero(wall < 0)):
         if area[rest].sum() > _SPECK * area.sum():
             found += straight_runs(corners[rest], thickness)
-    return found
+    return mended(found, len(found), np.inf, _JOINED * thickness * float(area.sum()))
 
 
 def _outward(corners: FloatArray, thickness: float) -> float:

@@ -25,7 +25,8 @@ _MOST_PATCHES = 64
 LEAST_BOARDS = 8
 """Boards that even a small sheet beside large ones may have."""
 
-_CRUMB, _ROUGH = 1e-3, 0.05  # of a sheet: what no smooth one comes apart into, and how much of it does so
+_SPLINTERED = 250  # patches that a rough sheet has at least
+_CRUMB, _ROUGH = 1e-3, 0.04  # of a sheet: what no smooth one comes apart into, and how much of it does so
 
 
 def boards(vertices: FloatArray, faces: IntArray, middle: FloatArray, most: int) -> list[Piece]:
@@ -79,7 +80,7 @@ def _is_rough(vertices: FloatArray, faces: IntArray) -> bool:
     """Whether much of a sheet lies in very many patches too small to be walls, bevels or curves."""
     patch = _patches(vertices, faces, _FLAT_PATCHES[0])
     size = np.bincount(patch, areas(vertices[faces]))
-    return len(size) > _MANY_BOARDS and bool(size[size < _CRUMB * size.sum()].sum() > _ROUGH * size.sum())
+    return len(size) > _SPLINTERED and bool(size[size < _CRUMB * size.sum()].sum() > _ROUGH * size.sum())
 
 
 def _board(vertices: FloatArray, faces: IntArray, step: FloatArray) -> Piece:
