@@ -111,6 +111,14 @@ class Decomposition:
     work: int = 0
     crowded: bool = False
 
+    @property
+    def settled(self) -> bool:
+        """Whether tighter ones would be no better: they would be put together again, or a tool has made some.
+
+        Tools know no rebates.
+        """
+        return self.crowded or self.tool_seconds > 0
+
 
 def decompose(vertices: FloatArray, faces: IntArray, budget: Budget = Budget()) -> Decomposition:
     """Shapes for (F, 3) faces on (V, 3) vertices [m], see `decompose_surface`."""

@@ -83,9 +83,9 @@ class Collision(sk.Modifier):
         if lacking:
             raise sk.BadInputError(f"modifier collision: {options.tool} is not installed: {lacking}")
         rolling, surfaces = self._parted(asset)
-        shaper = Shaper(surfaces, options.mode, beside)
         early = self._early.shapes if self._early and self._early.fits(asset, surfaces) else None
-        made = rolling | shaper.made(surfaces, self._first_budget, {}, early)
+        shaper = Shaper(surfaces, options.mode, beside, early)
+        made = rolling | shaper.made(surfaces, self._first_budget, {})
         done = self._placed(asset, made)
         found: Sequence[Overlap] = overlaps(done)
         if found and options.mode == "auto":
@@ -108,7 +108,9 @@ class Collision(sk.Modifier):
         if not shaper.uneven:
             return self
         early = copy(self)
-        early._early = Early(asset, frozenset(surfaces), shaper.begun(self._first_budget))
+        early._early = Early(
+            asset, frozenset(surfaces), shaper.begun(self._first_budget, self._tighter_budget)
+        )
         return early
 
     def _parted(self, asset: sk.Asset) -> tuple[Shapes, dict[str, Surface]]:
@@ -128,12 +130,11 @@ class Collision(sk.Modifier):
     ) -> tuple[Shapes, sk.Asset, Sequence[Overlap]]:
         """What is known, or tighter shapes where parts overlap, if these overlap less: rebates are small.
 
-        A part keeps its shapes if it has as many as it may, as finer ones would be put together again, and if
-        some are the tool's, which knows no rebates.
+        A part keeps its shapes if they are settled.
         """
         names = {name for overlap in found for name in (overlap.one, overlap.other)}
-        done_with = {name for name, m in made.items() if m.crowded or m.tool_seconds}
-        tighter = shaper.made(names - done_with, self._budget(_REBATES, 0.0), made)
+        settled = {name for name, m in made.items() if m.settled}
+        tighter = shaper.made(names - settled, self._tighter_budget, made)
         if not tighter:
             return made, done, found
         finer = made | tighter
@@ -152,6 +153,10 @@ class Collision(sk.Modifier):
     @property
     def _first_budget(self) -> Budget:
         return self._budget(Budget().tight, self.options.tool_timeout)
+
+    @property
+    def _tighter_budget(self) -> Budget:
+        return self._budget(_REBATES, 0.0)
 
     def _budget(self, tight: float, seconds: float) -> Budget:
         options = self.options

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -21,6 +22,19 @@ _KEPT = 8  # so many times less than an equal share of the work is kept for each
 
 
 @dataclass(frozen=True, eq=False)
+class Rounds:
+    """Shapes of a row of parts.
+
+    Attributes:
+        first: of all of them.
+        tighter: of those that are not settled, for where they overlap their neighbours.
+    """
+
+    first: Shapes
+    tighter: Shapes
+
+
+@dataclass(frozen=True, eq=False)
 class Early:
     """Shapes of the first row that another process is making already.
 
@@ -32,7 +46,7 @@ class Early:
 
     asset: Asset
     names: frozenset[str]
-    shapes: Later[Shapes]
+    shapes: Later[Rounds]
 
     def fits(self, asset: Asset, names: Collection[str]) -> bool:
         """Whether they are those of another asset, in which joints may differ."""
@@ -50,53 +64,84 @@ class Shaper:
         surfaces: of the parts, by name.
         mode: of the modifier `collision`.
         beside: who makes those of one row.
+        early: what `begun` gave.
     """
 
-    def __init__(self, surfaces: Mapping[str, Surface], mode: Mode, beside: Beside) -> None:
-        self._surfaces, self._mode, self._beside = surfaces, mode, beside
+    def __init__(
+        self,
+        surfaces: Mapping[str, Surface],
+        mode: Mode,
+        beside: Beside,
+        early: Later[Rounds] | None = None,
+    ) -> None:
+        self._surfaces, self._mode, self._beside, self._later = surfaces, mode, beside, early
         self._rows = _rows(surfaces)
 
     @property
     def uneven(self) -> bool:
-        """Whether the first row takes so much longer that it had better begin early."""
+        """Whether the first row takes so much longer that it had better begin early; it is one part then."""
         first, second = (sum(len(self._surfaces[name].faces) for name in row) for row in self._rows)
         return first > _UNEVEN * second
 
-    def begun(self, budget: Budget) -> Later[Shapes]:
+    def begun(self, budget: Budget, tighter: Budget) -> Later[Rounds]:
         """Shapes of the first row, which the other process makes while this one does something else."""
-        return self._beside.ask(shapes_of, self._sent(self._rows[0]), self._mode, budget)
+        return self._beside.ask(rounds_of, self._sent(self._rows[0]), self._mode, budget, tighter)
 
-    def made(
-        self, names: Collection[str], budget: Budget, before: Shapes, early: Later[Shapes] | None = None
-    ) -> Shapes:
-        """Shapes of some of the parts; none where no work is left.
+    def made(self, names: Collection[str], budget: Budget, before: Shapes) -> Shapes:
+        """Shapes of some of the parts; none of those in a row where no work is left.
 
         Args:
             names: of the parts.
-            budget: of each row, if nothing had been done before.
-            before: what has been done, in either row.
-            early: what `begun` gave for the same budget, if all parts are wanted and nothing has been done.
+            budget: of each row, if nothing had been done before; the first or the second one of `begun`.
+            before: what has been done, in either row: nothing, or the first shapes of all.
         """
-        left = replace(budget, work=budget.work - sum(m.work for m in before.values()))
-        if left.work <= 0:
-            return {}
-        mine, theirs = ({name: self._surfaces[name] for name in row if name in names} for row in self._rows)
-        if early is not None:
+        (mine, my_budget), (theirs, their_budget) = (
+            self._left(row, names, budget, before) for row in self._rows
+        )
+        if self._later is not None:
             self._beside.go_on()
-            found = shapes_of(theirs, self._mode, left) | early.result()
+            found = shapes_of(theirs, self._mode, their_budget)
+            early = self._early.tighter if before else self._early.first
+            found |= {name: early[name] for name in mine}
         elif self._beside.helps:  # asked even of an empty row: what waits behind it begins
-            later = self._beside.ask(shapes_of, self._sent(theirs), self._mode, left)
-            found = shapes_of(mine, self._mode, left) | later.result()
+            later = self._beside.ask(shapes_of, self._sent(theirs), self._mode, their_budget)
+            found = shapes_of(mine, self._mode, my_budget) | later.result()
         else:  # the time for the tool is for all of them
-            found = shapes_of(mine, self._mode, left)
-            seconds = max(left.tool_seconds - sum(m.tool_seconds for m in found.values()), 0.0)
-            found |= shapes_of(theirs, self._mode, replace(left, tool_seconds=seconds))
+            found = shapes_of(mine, self._mode, my_budget)
+            seconds = max(budget.tool_seconds - sum(m.tool_seconds for m in found.values()), 0.0)
+            found |= shapes_of(theirs, self._mode, replace(their_budget, tool_seconds=seconds))
         return {name: found[name] for name in self._surfaces if name in found}
+
+    def _left(
+        self, row: Iterable[str], names: Collection[str], budget: Budget, before: Shapes
+    ) -> tuple[dict[str, Surface], Budget]:
+        """Those of a row that are wanted, if it has work left, and what is left of its budget."""
+        left = _less(budget, [before[name] for name in row if name in before])
+        wanted = {name: self._surfaces[name] for name in row if name in names and left.work > 0}
+        return wanted, left
+
+    @cached_property
+    def _early(self) -> Rounds:
+        assert self._later is not None
+        return self._later.result()
 
     def _sent(self, names: Iterable[str]) -> dict[str, Surface]:
         """Some of the surfaces, without what is kept with them."""
         chosen = {name: self._surfaces[name] for name in names}
         return {name: Surface(s.vertices, s.faces, s.most) for name, s in chosen.items()}
+
+
+def rounds_of(surfaces: Mapping[str, Surface], mode: Mode, budget: Budget, tighter: Budget) -> Rounds:
+    """Shapes of some parts, and at once those that are asked for next if they overlap others."""
+    first = shapes_of(surfaces, mode, budget)
+    left = _less(tighter, first.values())
+    rest = {name: surface for name, surface in surfaces.items() if not first[name].settled and left.work > 0}
+    return Rounds(first, shapes_of(rest, mode, left))
+
+
+def _less(budget: Budget, done: Iterable[Decomposition]) -> Budget:
+    """A budget without the work that was done."""
+    return replace(budget, work=budget.work - sum(made.work for made in done))
 
 
 def shapes_of(surfaces: Mapping[str, Surface], mode: Mode, budget: Budget) -> Shapes:
