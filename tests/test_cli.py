@@ -29,7 +29,7 @@ def test_convert_tells_what_was_found_and_where_it_is(home, capfd):
     out, err = capfd.readouterr()
     assert code == 0
     assert "cupboard: 3 parts, 2 joints: door (revolute), drawer (prismatic)" in out
-    assert re.search(r"door +revolute +-86 \.\. 0 deg on body", out)
+    assert re.search(r"door +revolute +-86 \.\. 0 deg on body, confidence 100%$", out, re.MULTILINE)
     assert re.search(r"drawer +prismatic +0\.000 \.\. 0\.300 m on body", out)
     for check in ("collision", "joints", "mass"):
         assert re.search(rf"^  (ok  |FAIL)  {check}: ", out, re.MULTILINE)

@@ -60,11 +60,12 @@ def _lost(unsupported: Mapping[str, Sequence[str]], verbose: bool) -> list[str]:
 
 
 def joint_rows(asset: Asset) -> Iterator[str]:
-    """A line a joint that moves: what, how, how far."""
+    """A line a joint that moves: what, how, how far, and how sure that is."""
     for joint in asset.joints:
         if joint.moves:
             flags = f"  flagged: {'; '.join(joint.flags)}" if joint.flags else ""
-            yield f"{joint.child:<20} {joint.kind:<10} {travel(joint)} on {joint.parent}{flags}"
+            sure = f"confidence {joint.confidence:.0%}"
+            yield f"{joint.child:<20} {joint.kind:<10} {travel(joint)} on {joint.parent}, {sure}{flags}"
 
 
 def travel(joint: Joint) -> str:
