@@ -16,7 +16,7 @@ from simart_kit.loading import read_source
 from simart_kit.mesh import Mesh
 from simart_kit.plugins import Plugins
 from simart_kit.segments import find_segments
-from simart_kit.skins.refining import refined
+from simart_kit.skins.refining import longest_side, refined
 from simart_kit.topology import half_edges, shared_by_two
 
 from .delivered_skins import among_strays, decimated, double_walled, main
@@ -80,6 +80,10 @@ class TestRefined:
 
     def test_what_would_be_too_many_is_left_as_it_is(self) -> None:
         assert len(refined(self.places, self.faces, 1e-5).faces) == len(self.faces)
+
+    def test_sides_are_left_half_as_long_where_triangles_are_large(self) -> None:
+        assert longest_side(self.places, self.faces, 1.0) == 1.0
+        assert longest_side(self.places, self.faces, 0.15) == 0.075
 
     def test_a_source_has_the_label_of_most_of_it(self) -> None:
         fine = refined(self.places, self.faces, 0.15)

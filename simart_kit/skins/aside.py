@@ -11,7 +11,7 @@ from ..arrays import BoolArray, IntArray
 from ..mesh import Mesh
 from ..rays import Rays
 from .fineness import RADIUS, coarseness, is_fine, is_rough
-from .refining import LONGEST, refined
+from .refining import longest_side, refined
 
 _MAIN = 0.4  # share of the surface that a skin has at least
 _STRAY = 0.001  # share of the surface that a stray has at most
@@ -68,6 +68,7 @@ def pieces_before(mesh: Mesh, skin: IntArray, piece: IntArray, aside: IntArray) 
     from scipy.spatial import cKDTree
 
     size = float(np.ptp(mesh.bounds, axis=0).max())
-    fine = refined(mesh.vertices, mesh.faces[skin], LONGEST * RADIUS * size)
+    longest = longest_side(mesh.vertices, mesh.faces[skin], RADIUS * size)
+    fine = refined(mesh.vertices, mesh.faces[skin], longest)
     away, nearest = cKDTree(fine.places[fine.faces].mean(axis=1)).query(mesh.triangles[aside].mean(axis=1))
     return np.where(away < _WALL * size, piece[fine.source[nearest]], int(piece.max()) + 1)

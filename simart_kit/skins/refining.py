@@ -10,9 +10,9 @@ from ..arrays import BoolArray, FloatArray, IntArray
 from ..topology import edges
 from ..triangles import lengths
 
-LONGEST = 0.5
-"""How long sides are left, in radii of the surroundings that relief goes by."""
-
+# How long sides are left, in radii of the surroundings that relief goes by, and of skins so coarse that each
+# of their triangles would come apart into more than so many.
+_LONGEST, _LONGEST_OF_COARSE, _MANY = 1.0, 0.5, 10
 # So many times as long as the middle one, some side of a triangle is where flat places were decimated.
 _UNEVEN = 4.0
 _COARSE = 2.0  # so many times as long as asked for are sides that are cut although they are alike
@@ -64,6 +64,19 @@ class Refined:
         return result
 
 
+def longest_side(places: FloatArray, faces: IntArray, radius: float) -> float:
+    """How long a skin's sides may be left for relief to show, in the unit of the places.
+
+    Args:
+        places: (V, 3).
+        faces: (F, 3) places.
+        radius: of the surroundings that relief goes by.
+    """
+    fine = _LONGEST_OF_COARSE * radius
+    many = _estimated(_sides(_whole(places, faces)) / fine) > _MANY * len(faces)
+    return fine if many else _LONGEST * radius
+
+
 def refined(places: FloatArray, faces: IntArray, longest: float) -> Refined:
     """Cut triangles of unlike size, or large ones, until no side is longer; two that share one cut it alike.
 
@@ -72,7 +85,7 @@ def refined(places: FloatArray, faces: IntArray, longest: float) -> Refined:
         faces: (F, 3) places; each is a corner of one.
         longest: side, in the unit of the places.
     """
-    now = Refined(places, faces, np.arange(len(faces)), np.broadcast_to(np.eye(3), (len(faces), 3, 3)))
+    now = _whole(places, faces)
     side = _sides(now)
     alike = side.max() < _UNEVEN * np.median(side) and _middle(side.mean(axis=1)) < _COARSE * longest
     if alike or _estimated(side / longest) > _MOST:
@@ -86,6 +99,12 @@ def refined(places: FloatArray, faces: IntArray, longest: float) -> Refined:
         np.concatenate([getattr(part, of) for part in (*left, now)]) for of in ("faces", "source", "weights")
     )
     return Refined(now.places, faces, source, weights)
+
+
+def _whole(places: FloatArray, faces: IntArray) -> Refined:
+    """Triangles as they are."""
+    every = len(faces)
+    return Refined(places, faces, np.arange(every), np.broadcast_to(np.eye(3), (every, 3, 3)))
 
 
 def _sides(now: Refined) -> FloatArray:

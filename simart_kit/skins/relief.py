@@ -22,7 +22,7 @@ from .frames import with_frames_shared_out
 from .graph import SkinGraph, skin_graph, unit
 from .lobes import with_lobes_whole
 from .partings import with_fronts_parted
-from .refining import LONGEST, Refined, refined
+from .refining import Refined, longest_side, refined
 from .sides import ways, with_sides_parted
 
 # The most steps that the surroundings are wide.
@@ -51,7 +51,8 @@ def relief_pieces(mesh: Mesh, corners: IntArray, kept: IntArray) -> IntArray:
     used, whole = without_gaps(corners)
     places = np.zeros((len(used), 3))
     places[whole] = mesh.triangles[kept]
-    fine = refined(places, whole, LONGEST * RADIUS * float(np.ptp(places, axis=0).max()))
+    radius = RADIUS * float(np.ptp(places, axis=0).max())
+    fine = refined(places, whole, longest_side(places, whole, radius))
     faces, source = fine.faces, kept[fine.source]
     areas = mesh.face_areas[source] * fine.shares
     graph = skin_graph(fine.places, faces, mesh.face_normals[source], areas)
