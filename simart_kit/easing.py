@@ -19,8 +19,8 @@ from .kinematics import carried, moved_by, reach_box, span
 from .separation import CLEARANCE, TOLERANCE, overlaps_on_the_way, replaced, rigid_bodies
 
 _STEPS = 0.0005 * 2.0 ** np.arange(8)  # [m] that a part has moved at its farthest
-_MOST_OF_SHAPE = 0.25  # of its extent that a shape may lose at once
-_MOST = 0.005  # of the object's diagonal that it may: overlaps up to this count as touching elsewhere
+_MOST_OF_SHAPE = 0.35  # of its extent that a shape may lose at once
+_MOST = 0.015  # of the object's diagonal that it may: a skin's borders wind by as much
 
 WORK = 4000
 """Pairs of shapes whose boxes meet that may be looked at in all: what bounds the time."""

@@ -44,7 +44,7 @@ def fronts(lean: float, gap: float = 0.001) -> Asset:
     return Asset("chest", mesh, np.repeat(np.arange(3), count), parts, joints)
 
 
-@pytest.mark.parametrize("lean", [0.006, -0.006])
+@pytest.mark.parametrize("lean", [0.006, -0.006, 0.03, -0.03])
 def test_leaning_fronts_pass_each_other_and_lose_no_more_than_they_lean(lean: float) -> None:
     asset = fronts(lean)
     done = eased(asset)
