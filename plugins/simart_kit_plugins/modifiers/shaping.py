@@ -91,7 +91,7 @@ class Shaper:
         """Shapes of some of the parts; none of those in a row where no work is left.
 
         Args:
-            names: of the parts.
+            names: of the parts; the second time of none that is settled.
             budget: of each row, if nothing had been done before; the first or the second one of `begun`.
             before: what has been done, in either row: nothing, or the first shapes of all.
         """
