@@ -25,7 +25,7 @@ _MOST_PATCHES = 64
 LEAST_BOARDS = 8
 """Boards that even a small sheet beside large ones may have."""
 
-_SPLINTERED = 250  # patches that a rough sheet has at least
+_SPLINTERED = 250  # patches: a rough sheet has more
 _CRUMB, _ROUGH = 1e-3, 0.04  # of a sheet: what no smooth one comes apart into, and how much of it does so
 
 

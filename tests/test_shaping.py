@@ -49,7 +49,7 @@ def counts(shapes: dict[str, Decomposition]) -> dict[str, int]:
     return {name: len(made.shapes) for name, made in shapes.items()}
 
 
-def same(found: dict[str, Decomposition], expected: dict[str, Decomposition]) -> None:
+def assert_same(found: dict[str, Decomposition], expected: dict[str, Decomposition]) -> None:
     assert list(found) == list(expected)
     for name, made in expected.items():
         for one, other in zip(found[name].shapes, made.shapes, strict=True):
@@ -71,7 +71,7 @@ def test_only_what_is_asked_for_is_made_and_even_no_part_lets_what_waits_behind_
 
 def test_one_after_the_other_makes_the_same() -> None:
     alone = Shaper(SURFACES, "auto", ALONE).made(SURFACES, Budget(), {})
-    same(Shaper(SURFACES, "auto", Listening()).made(SURFACES, Budget(), {}), alone)
+    assert_same(Shaper(SURFACES, "auto", Listening()).made(SURFACES, Budget(), {}), alone)
 
 
 def test_nothing_is_made_of_a_row_without_work_left() -> None:
@@ -93,8 +93,8 @@ def test_what_began_early_is_what_both_rounds_make() -> None:
     beside = Listening()
     early = Shaper(surfaces, "auto", beside, Shaper(surfaces, "auto", beside).begun(first, tighter))
     assert beside.names == [{"body"}]
-    same(early.made(surfaces, first, {}), made)
-    same(early.made(surfaces, tighter, made), finer)
+    assert_same(early.made(surfaces, first, {}), made)
+    assert_same(early.made(surfaces, tighter, made), finer)
     assert set(early.made({"lid"}, tighter, made)) == {"lid"}
     assert beside.names == [{"body"}]
 
