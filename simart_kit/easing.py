@@ -16,7 +16,7 @@ from .bounds import box_corners, sharing
 from .clipping import extent, pulled_in
 from .convex_overlap import Convex, convex, gap, gap_across, meets
 from .kinematics import carried, moved_by, reach_box, span
-from .separation import CLEARANCE, TOLERANCE, overlaps_on_the_way, replaced, rigid_bodies
+from .separation import CLEARANCE, TOLERANCE, overlaps, overlaps_on_the_way, replaced, rigid_bodies
 
 _STEPS = 0.0005 * 2.0 ** np.arange(8)  # [m] that a part has moved at its farthest
 _MOST_OF_SHAPE = 0.35  # of its extent that a shape may lose at once
@@ -31,14 +31,16 @@ Shapes = dict[str, list[Convex]]  # by name of the part
 def eased(asset: Asset, work: int = WORK) -> Asset:
     """The asset with shapes that begin their joint's way without those of neighbours, which give way as much.
 
-    Pairs that exporters exclude, as they meet on the way however that begins, stay as they are.
+    Pairs that exporters exclude stay as they are: what overlaps at rest, or meets on the way however that
+    begins. Parted at rest alone, they would stop each other a little later.
 
     Args:
-        asset: with collision shapes that are apart at rest.
+        asset: with collision shapes.
         work: see `WORK`; joints that come later stay as they are.
     """
     shapes: Shapes = {part.name: [convex(shape) for shape in part.collision] for part in asset.parts}
-    excluded = {frozenset((pair.one, pair.other)) for pair in overlaps_on_the_way(asset)}
+    met = (*overlaps(asset), *overlaps_on_the_way(asset))
+    excluded = {frozenset((pair.one, pair.other)) for pair in met}
     for joint in asset.joints:
         if joint.kind in ("revolute", "continuous", "prismatic") and span(joint) != (0.0, 0.0):
             work -= _ease(shapes, joint, _others(asset, joint, excluded), _MOST * asset.mesh.diagonal, work)
