@@ -40,7 +40,7 @@ class Segments:
         count: number of segments.
         duplicates: faces that repeat an earlier one; they share its segment.
         degenerates: faces without area; they join nothing, and share the largest segment that they touch.
-        patches: whether a fused component was cut, at its creases or by relief.
+        patch: (F,) which faces are of a fused component that was cut, at its creases or by relief.
         relief: whether it was by relief.
         aside: (F,) which faces are of shells that tell nothing of a skin, as the inner sides of its walls and
             strays are; each is of the segment next to it.
@@ -51,9 +51,14 @@ class Segments:
     count: int
     duplicates: int
     degenerates: int
-    patches: bool
+    patch: BoolArray
     relief: bool
     aside: BoolArray
+
+    @property
+    def patches(self) -> bool:
+        """Whether a fused component was cut."""
+        return bool(self.patch.any())
 
     def describe(self) -> str:
         """One sentence for the report."""
@@ -140,30 +145,46 @@ def _cut(mesh: Mesh, of: _Faces, crease: float, node_hint: bool, relief: bool) -
     keys = of.corners
     if node_hint and mesh.face_node is not None:
         keys = keys + int(keys.max() + 1) * mesh.face_node[:, None]
-    found, cut, aside = _pieces(mesh, keys.take(looked_at, axis=0), looked_at, crease, relief)
+    found = _pieces(mesh, keys.take(looked_at, axis=0), looked_at, crease, relief)
     labels = np.zeros(len(keys), dtype=np.int64)
-    labels[looked_at] = _by_area(found, mesh.face_areas.take(looked_at))
+    labels[looked_at] = _by_area(found.label, mesh.face_areas.take(looked_at))
     labels[of.degenerate] = _largest_beside(labels, of.corners, of.degenerate, looked_at)
     labels[of.duplicate] = labels[of.first[of.duplicate]]
-    beside = np.zeros(len(keys), dtype=np.bool_)
-    beside[looked_at[aside]] = True
-    beside[of.duplicate] = beside[of.first[of.duplicate]]
+    patch, aside = np.zeros((2, len(keys)), dtype=np.bool_)
+    for told, which in ((patch, found.patch), (aside, found.aside)):
+        told[looked_at[which]] = True
+        told[of.duplicate] = told[of.first[of.duplicate]]
     return Segments(
         frozen_ints(labels),
         of.vertex,
         int(labels.max()) + 1,
         int(of.duplicate.sum()),
         int(of.degenerate.sum()),
-        cut != "",
-        cut == "relief",
-        frozen_bools(beside),
+        frozen_bools(patch),
+        found.cut == "relief",
+        frozen_bools(aside),
     )
 
 
-def _pieces(
-    mesh: Mesh, corners: IntArray, kept: IntArray, crease: float, relief: bool
-) -> tuple[IntArray, _Cut, BoolArray]:
-    """(K,) labels of the `kept` faces, how a fused component was cut, and (K,) what is aside of it.
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """Pieces of K faces.
+
+    Attributes:
+        label: (K,) of the piece of each.
+        cut: how a fused component was cut.
+        patch: (K,) which are of that component.
+        aside: (K,) which are aside of it.
+    """
+
+    label: IntArray
+    cut: _Cut
+    patch: BoolArray
+    aside: BoolArray
+
+
+def _pieces(mesh: Mesh, corners: IntArray, kept: IntArray, crease: float, relief: bool) -> _Found:
+    """The pieces of the `kept` faces.
 
     Args:
         mesh: the faces' mesh.
@@ -189,7 +210,7 @@ def _pieces(
         alone = _joints(corners[inside], kept[inside], mesh.face_normals)
         pieces = alone.patches(crease, smooth[inside])
     found[inside] = found.max() + 1 + pieces
-    return found, cut, np.zeros(len(found), dtype=np.bool_)
+    return _Found(found, cut, inside, np.zeros_like(inside))
 
 
 def _shells(
@@ -210,19 +231,19 @@ def _shells(
 
 def _pieces_of_skin(
     surface: _Surface, corners: IntArray, found: IntArray, smooth: IntArray, crease: float, relief: bool
-) -> tuple[IntArray, _Cut, BoolArray]:
+) -> _Found:
     """As `_pieces`, of a skin that what is aside of it keeps from being told; of all else, as found."""
     mesh, kept = surface.mesh, surface.face_ids
     aside = aside_of_skin(mesh, kept, found, smooth)
     rest = ~aside
     if aside.any():
-        pieces, cut, more = _pieces(mesh, corners[rest], kept[rest], crease, relief)
-        if cut:
-            found[rest] = pieces
-            found[aside] = pieces_before(mesh, kept[rest], pieces, kept[aside])
-            aside[rest] = more
-            return found, cut, aside
-    return found, "", np.zeros(len(found), dtype=np.bool_)
+        of = _pieces(mesh, corners[rest], kept[rest], crease, relief)
+        if of.cut:
+            patch = np.zeros_like(aside)
+            found[rest], patch[rest], aside[rest] = of.label, of.patch, of.aside
+            found[~rest] = pieces_before(mesh, kept[rest], of.label, kept[~rest])
+            return _Found(found, of.cut, patch, aside)
+    return _Found(found, "", np.zeros_like(aside), np.zeros_like(aside))
 
 
 @dataclass(frozen=True, eq=False)

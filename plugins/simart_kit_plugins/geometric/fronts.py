@@ -106,7 +106,7 @@ def find_fronts(scene: Scene, contacts: Contacts, facing: str, fused: bool = Fal
         inner = box.upper[2] < whole.center[2]
         if inner and not thin(box):
             continue
-        inlays = _carried(boxes, piece) if fused else _layers(scene, axes, contacts, boxes, piece)
+        inlays = _on_skin(boxes, piece) if fused else _layers(scene, axes, contacts, boxes, piece)
         if _seen(scene, axes, box, (piece, *inlays)) < VISIBLE:
             continue
         # Seen through an opening, it is a back wall, which has no handle.
@@ -242,6 +242,13 @@ def _carried(boxes: list[Box], piece: int) -> tuple[int, ...]:
         and panel.lower[2] - TOUCH <= box.lower[2] <= panel.upper[2] + 2 * TOUCH
     )
     return tuple(dict.fromkeys((*_inlays(boxes, piece), *lying)))
+
+
+def _on_skin(boxes: list[Box], piece: int) -> tuple[int, ...]:
+    """What a panel carries, and what lies within flat ones of these, such as the glass of a rim."""
+    carried = _carried(boxes, piece)
+    inner = (i for one in carried if thin(boxes[one]) for i in _inlays(boxes, one) if i != piece)
+    return tuple(dict.fromkeys((*carried, *inner)))
 
 
 def _handles(contacts: Contacts, boxes: list[Box], piece: int, inlays: tuple[int, ...]) -> tuple[int, ...]:

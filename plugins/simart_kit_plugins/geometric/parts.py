@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from simart_kit import Note, PartGuess, Segmentation
-from simart_kit.arrays import frozen_ints
+from simart_kit.arrays import IntArray, frozen_ints
 from simart_kit.segments import Segments, find_segments
 from simart_kit.submesh import submesh
 from simart_kit.topology import without_gaps
@@ -67,7 +68,7 @@ def parts_of(mesh: Mesh, spec: Spec | None, max_parts: int, crease: float, node_
     seen = ~segments.aside
     ids, shown = without_gaps(piece[seen])
     scene = make_scene(mesh if seen.all() else submesh(mesh, seen), shown)
-    found = _find(scene, segments, spec)
+    found = _off_the_skin(scene, _find(scene, segments, spec), np.unique(shown[segments.patch[seen]]))
     movers = found[:max_parts]
     face_part = np.zeros(len(mesh.faces), dtype=np.int32)
     for number, mover in enumerate(movers, start=1):
@@ -122,6 +123,16 @@ def _on_a_body(scene: Scene, found: list[Mover]) -> list[Mover]:
         return found
     largest = max(found, key=lambda mover: float(scene.areas[list(mover.pieces)].sum()))
     return [mover for mover in found if mover is not largest]
+
+
+def _off_the_skin(scene: Scene, found: list[Mover], patches: IntArray) -> list[Mover]:
+    """The movers, those that are mostly solids of their own without (N,) patches: a knob has no well."""
+    kept, skin = [], set(patches.tolist())
+    for mover in found:
+        own = tuple(piece for piece in mover.pieces if piece not in skin)
+        mostly = 2 * scene.areas[list(own)].sum() > scene.areas[list(mover.pieces)].sum()
+        kept.append(replace(mover, pieces=own) if mostly else mover)
+    return kept
 
 
 def _apart(controls: list[Mover], fronts: list[Mover]) -> list[Mover]:
