@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from simart_kit import Note, PartGuess, Segmentation
-from simart_kit.arrays import IntArray, frozen_ints
+from simart_kit.arrays import IntArray
 from simart_kit.segments import Segments, find_segments
 from simart_kit.submesh import submesh
 from simart_kit.topology import without_gaps
@@ -20,7 +20,7 @@ from .inner_drawers import inner_drawers, with_fronts
 from .levers import with_levers
 from .lids import lids
 from .movers import Mover, doubtful_movers, front_movers
-from .naming import names
+from .naming import in_order, names
 from .open_leaves import open_leaves
 from .racks import racks
 from .rotors import rotors
@@ -77,11 +77,13 @@ def parts_of(mesh: Mesh, spec: Spec | None, max_parts: int, crease: float, node_
     for mover, name in zip(movers, names(scene, movers), strict=True):
         told = "; ".join(mover.evidence)
         guesses.append(PartGuess(name, label=mover.label, score=mover.score, description=told))
-    return Segmentation(
-        frozen_ints(face_part),
-        tuple(guesses),
-        face_segment=segments.face_segment,
-        notes=(*_notes(segments, movers), *_left(found[max_parts:])),
+    return in_order(
+        Segmentation(
+            face_part,
+            tuple(guesses),
+            face_segment=segments.face_segment,
+            notes=(*_notes(segments, movers), *_left(found[max_parts:])),
+        )
     )
 
 

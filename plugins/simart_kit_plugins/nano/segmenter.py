@@ -85,6 +85,7 @@ class Nano(Segmenter):
     def _segmented(self, mesh: Mesh, spec: Spec | None, beside: Beside) -> Segmentation:
         from simart_kit.segments import find_segments
 
+        from ..geometric.naming import in_order
         from .asking import said_by
         from .meshes import mesh_cloud
         from .proposals import of_geometry, with_body
@@ -127,6 +128,7 @@ class Nano(Segmenter):
             found = _of_patches(mesh, said, seen, material, spec)
         else:
             found = self._of_pieces(mesh, said, seen, geometry, material, spec)
+        found = in_order(found)
         assert found.face_segment is not None
         shown = evidence(found.mesh_of(mesh), found.face_segment, said, seen)
         if seen.skin and not seen.relief and asked and (fronts or len(found.parts) == 1):
