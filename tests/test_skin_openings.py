@@ -141,6 +141,21 @@ def test_panes_side_by_side_in_two_tracks_slide_and_of_two_above_one_another_the
     assert (lower.label, set(lower.pieces)) == ("sash", {1, 2, 3})
 
 
+def test_stiles_where_sliding_leaves_meet_go_with_the_leaf_in_whose_track_they_are() -> None:
+    skin = jambs()
+    pane(skin, (0.04, 0.42), (0.04, 0.96), 0.02, 1)
+    pane(skin, (0.38, 0.76), (0.04, 0.96), 0.06, 4)
+    for piece, y, z in ((7, 0.01, (0.04, 0.96)), (8, 0.05, (0.04, 0.5)), (9, 0.05, (0.5, 0.96))):
+        skin.add(((0.36, y, z[0]), (0.44, y + 0.03, z[1])), piece, piece, piece)
+    assert [set(mover.pieces) for mover in skin.leaves()] == [{1, 2, 3, 7}, {4, 5, 6, 8, 9}]
+    sashes = jambs()
+    pane(sashes, (0.04, 0.76), (0.04, 0.52), 0.02, 1)
+    pane(sashes, (0.04, 0.76), (0.48, 0.96), 0.06, 4)
+    for piece, y in ((7, 0.01), (8, 0.05)):
+        sashes.add(((0.03, y, 0.46), (0.77, y + 0.03, 0.54)), piece, piece, piece)
+    assert [set(mover.pieces) for mover in sashes.leaves()] == [{1, 2, 3, 7}]
+
+
 def levered(skin: Skin, x: float, piece: int, behind: int) -> None:
     """A lever before a leaf, and one behind it."""
     for y, number in (((-0.06, 0.0), piece), ((0.04, 0.1), behind)):

@@ -33,6 +33,7 @@ _LEVEL = 0.03  # diagonals by which they may be out of line
 _BETWEEN = 0.5  # of its longer side by which two panes may be apart: the frames meet there
 _TRACK = 0.006  # diagonals between the middles of panes that pass by each other, at least
 _OUT, _GRIP = 0.01, 0.4  # how far handles stand out [diagonals], and the share of the leaf that they take
+_TRACKED = ("sliding_door", "sash")  # what passes by its like across, and up
 _SMALL = 0.1  # share of the whole surface below which a piece goes with the leaf in which it lies
 
 
@@ -109,6 +110,9 @@ def _moving(
     for one, other in combinations(leaves, 2):
         lower, upper = sorted((one, other), key=lambda leaf: float(leaf.pane.center[1]))
         label, reason = _pair(scene, lower, upper, side)
+        if label in _TRACKED:
+            along = _TRACKED.index(label)
+            lower, upper = (_with_stiles(seen, *two, along) for two in ((lower, upper), (upper, lower)))
         for leaf in {"": (), "sash": (lower,)}.get(label, (lower, upper)):
             told[leaf.pane.piece] = (leaf, label, reason)
     whole = scene.box.turned(FACINGS[side]).size
@@ -213,6 +217,23 @@ def _follows(one: _Piece, other: _Piece) -> int | None:
         if near and apart[1 - along] < _LEVEL:
             return along
     return None
+
+
+def _with_stiles(seen: Sequence[_Piece], leaf: _Leaf, other: _Leaf, along: int) -> _Leaf:
+    """A leaf with the small pieces in its track where two panes meet, across or up, such as their stiles."""
+    pieces = (*leaf.pieces, *other.pieces)
+    low = np.min([one.lower for one in pieces], axis=0) - _LEVEL
+    high = np.max([one.upper for one in pieces], axis=0) + _LEVEL
+    low[along], high[along] = sorted((leaf.pane.center[along], other.pane.center[along]))
+    between = replace(leaf.pane, lower=low, upper=high)
+    mine = (
+        one
+        for one in seen
+        if one.share < _SMALL
+        and one.lies_in(between, 0.0)
+        and abs(one.center[2] - leaf.pane.center[2]) < abs(one.center[2] - other.pane.center[2])
+    )
+    return replace(leaf, frames=tuple(dict.fromkeys((*leaf.frames, *mine))))
 
 
 def _has_handle(scene: Scene, leaf: _Leaf, side: str) -> bool:
